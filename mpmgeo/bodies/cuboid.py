@@ -1,0 +1,38 @@
+"""A box with edges along the axes."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from mpmgeo.bodies.body import Body
+from mpmgeo.bodies.cloud import Cloud
+from mpmgeo.bodies.lattice import Lattice
+from mpmgeo.parameters import Vector, parameter
+
+
+@dataclass(frozen=True)
+class Cuboid(Body):
+    """A box between two corners, filled with whole cells counted from the lower corner."""
+
+    type: ClassVar[str] = "cuboid"
+
+    point_p1: Vector = parameter("Corner of lowest coordinates", unit="m")
+    point_p2: Vector = parameter("Corner of highest coordinates", unit="m")
+
+    def problems(self) -> Iterator[tuple[str, str]]:
+        """Yield (key, message) for every axis along which the box is empty."""
+        for name, low, high in zip("xyz", self.point_p1, self.point_p2, strict=True):
+            if not high > low:
+                yield "point_p2", f"{name} is {high:g} and must exceed that of point_p1, {low:g}"
+
+    def lattice(self, cell: np.ndarray) -> Lattice:
+        """Return the candidate positions; raises ValueError if there are too many."""
+        extent = [high - low for low, high in zip(self.point_p1, self.point_p2, strict=True)]
+        return Lattice.over(self.point_p1, extent, cell, self.particles_per_direction)
+
+    def generate(self, cell: np.ndarray) -> Cloud:
+        """Return the particles of all cells, which are never clipped; `cell` (3,) is in m."""
+        lattice = self.lattice(cell)
+        return lattice.cloud(fastest="x", notes=lattice.surplus())

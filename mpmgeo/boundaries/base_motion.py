@@ -1,0 +1,90 @@
+"""The lowest plane as a moving base: its velocity from a record of accelerations.
+
+    v ← v + a(t) h,  h half a step at first, as for the particles
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from mpmgeo.boundaries.planes import BASE, FIXED, SLIDING, Planes
+
+
+class Motion(NamedTuple):
+    """Motion of the base in a step for kernels: velocity before and after [m/s], acceleration [m/s²].
+
+    `drives`: whether base nodes take the velocity, or only the acceleration.
+    """
+
+    before: tuple
+    after: tuple
+    acceleration: tuple
+    drives: bool
+
+    @classmethod
+    def of(cls, before, after, acceleration, drives=True):
+        """Return the motion with its vectors as triples."""
+        vectors = [tuple(float(c) for c in u) for u in (before, after, acceleration)]
+        return cls(*vectors, drives)
+
+
+STILL = Motion.of(np.zeros(3), np.zeros(3), np.zeros(3))
+
+
+class BaseMotion:
+    """The base follows a record: all its nodes move with its velocity, until the record ends."""
+
+    def __init__(self, record):
+        self.record = record
+        self.velocity = np.zeros(3)
+        self.ended = False
+
+    def planes(self, planes: Planes) -> Planes:
+        """Return the planes with the lowest one as base."""
+        return planes._replace(z0=BASE)
+
+    def advance(self, t, h) -> Motion:
+        """Return the motion during the step from time t [s] on in which velocities change by h a."""
+        acceleration = self.record.at(t)
+        self.ended = acceleration is None
+        if self.ended:
+            self.velocity = np.zeros(3)
+            return STILL
+        before = self.velocity
+        self.velocity = before + acceleration * h
+        return Motion.of(before, self.velocity, acceleration)
+
+    def planes_after(self, planes: Planes) -> Planes:
+        """Return the planes when the record has ended: the base is held, the others stay."""
+        return planes
+
+
+class BaseMotionAsMPMGeomechanics(BaseMotion):
+    """The base as MPM-Geomechanics moves it, for comparison with old results.
+
+    All other planes slide and the upper ones win at edges; the first record counts as zero; USL
+    gives the base only the acceleration, MUSL one increment of velocity too much; afterwards all
+    planes are fixed.
+    """
+
+    def __init__(self, record, remaps):
+        super().__init__(record)
+        self.remaps = remaps
+
+    def planes(self, planes: Planes) -> Planes:
+        """Return sliding planes on a base."""
+        return Planes(SLIDING, SLIDING, BASE, SLIDING, SLIDING, SLIDING, upper_wins=True)
+
+    def advance(self, t, h) -> Motion:
+        """Return the motion during the step from time t [s] on in which velocities change by h a."""
+        times = self.record.time
+        self.ended = t >= times[-1]
+        if self.ended:
+            return STILL
+        acceleration = self.record.at(t) if t > times[0] else np.zeros(3)
+        self.velocity = self.velocity + acceleration * h
+        return Motion.of(self.velocity, self.velocity, acceleration, drives=self.remaps)
+
+    def planes_after(self, planes: Planes) -> Planes:
+        """Return planes that are all fixed."""
+        return Planes(*[FIXED] * 6, upper_wins=False)

@@ -1,0 +1,136 @@
+"""Every spelling found in old manuals, examples and programs, and the canonical key it stands for.
+
+A place is a path of canonical keys in which `*` stands for every entry of a container.
+"""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+
+class Alias(NamedTuple):
+    """An old spelling of a key at a place.
+
+    `remark` ends the note about it; `is_equal`: both spellings are current, so nothing is noted;
+    `wins`: the old spelling counts where both are given, as in MPM-Geomechanics.
+    """
+
+    place: tuple[str, ...]
+    old: str
+    new: str
+    remark: str = ""
+    is_equal: bool = False
+    wins: bool = False
+
+
+UNREAD = ", which MPM-Geomechanics does not read under this spelling"
+
+ALIASES = (
+    Alias((), "material", "materials", is_equal=True, wins=True),
+    Alias((), "time_step_multiplier", "critical_time_step_multiplier", UNREAD),
+    Alias((), "nodal_point_loads", "nodal_point_load", UNREAD),
+    Alias(("results",), "fields", "material_point_results", UNREAD),
+    Alias(("results",), "material-point-results", "material_point_results", UNREAD),
+    Alias(("results",), "grid-nodal-results", "grid_nodal_results", UNREAD),
+    Alias(("damping",), "alpha", "value"),
+)
+
+OBSOLETE = {
+    ((), "dtFraction"): "critical_time_step_multiplier",
+    ((), "nThreads"): "n_threads",
+    ((), "stressSchemeUpdate;"): "stress_scheme_update",
+    ((), "load_box"): "load_distributed_box",
+}
+"""(place, key) of obsolete keys that are ignored with a warning → the key to use."""
+
+IGNORED = {
+    ("mesh",): {"boundary_conditions_fluid": "Conditions on the fluid, read with two phases only"},
+    ("materials", "*"): {
+        "density_fluid": "Density of the fluid, read with two phases only",
+        "porosity": "Share of the pores, read with two phases only",
+        "bulk_fluid": "Bulk modulus of the fluid, read with two phases only",
+        "hydraulic_conductivity": "Hydraulic conductivity, read with two phases only",
+    },
+    ("body", "*"): {"id": "Ignored: bodies are numbered in order"},
+    ("damping",): {"value": "Read with local damping only"},
+}
+"""Keys of complete cases that are accepted and have no effect, with their description."""
+
+FIELD_LISTS = ("material_point_results", "grid_nodal_results", "stl_contact_mesh")
+FIELD_WRAPPERS = ("fields", "material_point_results", "grid_nodal_results")
+"""Keys of objects that examples put around a list of fields."""
+
+AUTOMATIC = ("time_step", "n_threads")
+"""Top-level keys for which 0 means the same as an absent key."""
+
+
+def rename(tree, report):
+    """Replace old spellings in a case's tree by the canonical ones, noting each."""
+    for alias in ALIASES:
+        for path, node in places(tree, alias.place):
+            if alias.old in node:
+                _rename_one(alias, path, node, report)
+    _flatten_field_lists(tree, report)
+    _drop_automatic(tree)
+    _truncate_print(tree, report)
+
+
+def places(node, place, path=()) -> Iterator[tuple[tuple, dict]]:
+    """Yield (path, object) for every object of a tree that a place stands for."""
+    if not place:
+        if isinstance(node, dict):
+            yield path, node
+        return
+    key, *rest = place
+    if key == "*":
+        entries = enumerate(node) if isinstance(node, list) else ()
+        entries = node.items() if isinstance(node, dict) else entries
+        for name, entry in entries:
+            yield from places(entry, rest, (*path, name))
+    elif isinstance(node, dict) and key in node:
+        yield from places(node[key], rest, (*path, key))
+
+
+def _rename_one(alias, path, node, report):
+    old_path, new_path = (*path, alias.old), (*path, alias.new)
+    if alias.new in node:
+        used, unused = (alias.old, alias.new) if alias.wins else (alias.new, alias.old)
+        report.warn((*path, unused), f'ignored, since "{used}" is given too')
+        if not alias.wins:
+            del node[alias.old]
+            return
+    elif not alias.is_equal:
+        report.note(old_path, f'read as "{alias.new}"{alias.remark}')
+    node[alias.new] = node.pop(alias.old)
+    report.written[new_path] = report.written.get(old_path, alias.old)
+
+
+def _flatten_field_lists(tree, report):
+    """Turn every list of fields written as one word or inside an object into a plain list."""
+    for path, results in places(tree, ("results",)):
+        for key in FIELD_LISTS:
+            value, here = results.get(key), (*path, key)
+            if isinstance(value, dict) and len(value) == 1:
+                wrapper, inside = next(iter(value.items()))
+                if wrapper in FIELD_WRAPPERS and isinstance(inside, list | str):
+                    written = report.written.get(here, key)
+                    report.note((*here, wrapper), f'read as the list "{key}" itself')
+                    report.written[here] = f"{written}.{wrapper}"
+                    value = inside
+            if key in results:
+                results[key] = [value] if isinstance(value, str) else value
+
+
+def _drop_automatic(tree):
+    for key in AUTOMATIC:
+        value = tree.get(key)
+        if value == 0 and not isinstance(value, bool):
+            del tree[key]
+
+
+def _truncate_print(tree, report):
+    """Round the number of outputs down as MPM-Geomechanics does, since nothing depends on it."""
+    for path, results in places(tree, ("results",)):
+        value = results.get("print")
+        if isinstance(value, float) and not value.is_integer() and abs(value) < 2**31:
+            results["print"] = int(value)
+            report.note((*path, "print"), f"{value} is rounded to {int(value)}")

@@ -1,0 +1,155 @@
+"""From a case to the solver that runs it: the only place that knows every package."""
+
+from math import inf
+
+import numpy as np
+
+from mpmgeo.boundaries.base_motion import BaseMotion, BaseMotionAsMPMGeomechanics
+from mpmgeo.boundaries.planes import Planes
+from mpmgeo.damping import KineticDamping, LocalDamping
+from mpmgeo.loads.point import GHOSTS
+from mpmgeo.mpm.point_loads import PointLoads
+from mpmgeo.mpm.schemes import SCHEMES
+from mpmgeo.mpm.solver import Solver
+from mpmgeo.shapes import SHAPES
+from mpmgeo.state.grid import Grid, Mesh
+from mpmgeo.state.particles import ParticleSet, Population
+
+HALF = 0.5  # cells: the largest half-size for which the shapes sum to one
+
+
+def build(case):
+    """Return the solver of a case and notes for the user, one sentence each.
+
+    Raises ValueError for a record or geometry that cannot be used.
+    """
+    notes = []
+    population, velocity = _populate(case, notes)
+    mesh = Mesh.of(case.mesh.origin, case.mesh.cells_dimension, case.mesh.cells_number)
+    shape = SHAPES[case.shape_function]
+    legacy = case.compatibility is not None
+    damping = case.damping.value if isinstance(case.damping, LocalDamping) else 0.0
+    delayed = legacy and case.stress_scheme_update != "USF"
+    solver = Solver(
+        grid=Grid(mesh, shape.width),
+        sets=_sets(case, population, velocity, notes),
+        population=population,
+        shape=shape,
+        scheme=SCHEMES[case.stress_scheme_update],
+        planes=Planes.of(case.mesh.boundary_conditions),
+        time_step=time_step(case, velocity),
+        gravity=case.gravity,
+        base=_base(case, notes),
+        point_loads=_point_loads(case),
+        local=damping if damping and not delayed else None,
+        delayed=damping if damping and delayed else None,
+        settles=isinstance(case.damping, KineticDamping),
+    )
+    return solver, notes
+
+
+def critical_time_step(case, velocity):
+    """Return the time [s] in which a wave crosses a cell, the particles moving at `velocity` (n, 3).
+
+    The smallest cell size over the largest wave speed of a material in use plus particle speed; for
+    MPM-Geomechanics the mean cell size over the largest wave speed of all materials.
+    """
+    cell = case.mesh.cells_dimension
+    if case.compatibility is not None:
+        return sum(cell) / 3 / max(law.sound_speed() for law in case.materials)
+    used = {body.material_id for body in case.body if body.active}
+    speed = max((law.sound_speed() for law in case.materials if law.id in used), default=0.0)
+    fastest = np.sqrt((velocity**2).sum(axis=1).max(initial=0.0))
+    return min(cell) / (speed + fastest) if speed + fastest > 0 else inf
+
+
+def time_step(case, velocity):
+    """Return the time step of a case [s]: as given, or a share of the critical one."""
+    if case.time_step:
+        return case.time_step
+    return case.critical_time_step_multiplier * critical_time_step(case, velocity)
+
+
+def _populate(case, notes):
+    """Return the particles of all bodies in row order, and their velocities (n, 3) [m/s]."""
+    cell = np.array(case.mesh.cells_dimension)
+    bodies = [body for body in case.body if body.active]
+    clouds = [body.generate(cell) for body in bodies]
+    for number, cloud in enumerate(clouds, 1):
+        notes += [f"body {number}: {note}" for note in cloud.notes]
+    counts = [len(cloud.position) for cloud in clouds]
+    position = np.concatenate([np.empty((0, 3)), *(cloud.position for cloud in clouds)])
+    force = None
+    if case.load_distributed_box:
+        force = sum(load.particle_force(position) for load in case.load_distributed_box)
+    population = Population(
+        position=position,
+        size=np.concatenate([np.empty((0, 3)), *(cloud.size for cloud in clouds)]),
+        body=np.repeat(np.arange(1, len(bodies) + 1, dtype=np.uint32), counts),
+        material=np.repeat(np.array([b.material_id for b in bodies], dtype=np.int64), counts),
+        force=force,
+    )
+    velocity = np.repeat(np.array([b.initial_velocity for b in bodies], float), counts, axis=0)
+    return population, velocity.reshape(-1, 3)
+
+
+def _sets(case, population, velocity, notes):
+    """Return a particle set for each material in use."""
+    cell = np.array(case.mesh.cells_dimension)
+    sets = []
+    for law in case.materials:
+        rows = np.flatnonzero(population.material == law.id)
+        if not len(rows):
+            continue
+        volume = population.size[rows].prod(axis=1)
+        symbols = law.symbols
+        variables = len(symbols.STATE)
+        sets.append(
+            ParticleSet(
+                law=symbols,
+                row=rows,
+                x=population.position[rows],
+                v=velocity[rows],
+                m=law.density * volume,
+                V=volume,
+                stress=np.zeros((len(rows), 6)),
+                half=_half_sizes(population.size[rows] / cell / 2, notes),
+                force=None if population.force is None else population.force[rows],
+                state=np.zeros((len(rows), variables)) if variables else None,
+            )
+        )
+    return sets
+
+
+def _half_sizes(half, notes):
+    """Return half-sizes in cells as one triple if all particles share it, else a row each."""
+    if (half > HALF * (1 + 1e-9)).any():
+        notes.append("particles larger than a cell interpolate as if they were one cell large")
+    half = np.minimum(half, HALF)
+    if (np.ptp(half, axis=0) < 1e-12).all():
+        return tuple(float(l) for l in half[0])
+    return np.ascontiguousarray(half)
+
+
+def _base(case, notes):
+    """Return the motion of the base, if the case has one."""
+    earthquake = case.earthquake
+    if earthquake is None or not earthquake.active:
+        return None
+    record = earthquake.record()
+    notes += record.warnings
+    if case.compatibility is not None:
+        return BaseMotionAsMPMGeomechanics(record, case.stress_scheme_update == "MUSL")
+    if case.mesh.boundary_conditions.plane_Z0 is not None:
+        notes.append("mesh.boundary_conditions.plane_Z0 gives way to the moving base")
+    return BaseMotion(record)
+
+
+def _point_loads(case):
+    """Return the point loads on the nodes nearest to their points, if the case has any."""
+    loads = case.nodal_point_load
+    if not loads:
+        return None
+    origin, cell = np.array(case.mesh.origin), np.array(case.mesh.cells_dimension)
+    nodes = [load.node(origin, cell) - GHOSTS for load in loads]
+    return PointLoads(nodes, [load.force for load in loads])

@@ -1,0 +1,113 @@
+"""What only the keys of a case together can show to be impossible, or unlikely to be meant."""
+
+import math
+
+import numpy as np
+
+from mpmgeo.case.aliases import places
+from mpmgeo.case.report import shown
+from mpmgeo.case.spec import Case
+
+MOST_STEPS = 1e12
+"""Steps beyond which no run comes to its end."""
+
+SHARE = "critical_time_step_multiplier"
+
+SLACK = 1e-9
+"""Share of a cell by which a position may lie outside the mesh through round-off."""
+
+
+def check(tree, parts, report):
+    """Report contradictions between the keys of a tree; `parts` holds what could be made of it."""
+    _check_materials(tree, report)
+    _check_bodies(tree, parts, report)
+    _check_point_loads(tree, parts, report)
+    _check_steps(tree, parts, report)
+    _check_earthquake(parts, report)
+
+
+def _check_materials(tree, report):
+    defined = {}
+    for path, law in places(tree, ("materials", "*")):
+        if "id" not in law or report.is_broken((*path, "id")):
+            return
+        if law["id"] in defined:
+            first = report.where(defined[law["id"]])
+            report.warn((*path, "id"), f"{shown(law['id'])} is taken by {first}, which counts")
+        defined.setdefault(law["id"], path)
+    for path, body in places(tree, ("body", "*")):
+        here, wanted = (*path, "material_id"), body.get("material_id")
+        if defined and wanted is not None and not report.is_broken(here) and wanted not in defined:
+            known = ", ".join(map(shown, sorted(defined)))
+            report.error(here, f"{shown(wanted)} is no id of a material; defined: {known}")
+
+
+def _check_bodies(tree, parts, report):
+    bodies = [body for _, body in places(tree, ("body", "*"))]
+    if bodies and all(body.get("active") is False for body in bodies):
+        report.error(("body",), "no body is active")
+    mesh = parts.get(("mesh",))
+    for path, _ in places(tree, ("body", "*")):
+        body = parts.get(path)
+        if mesh and body and body.active and hasattr(body, "lattice"):
+            try:
+                body.lattice(np.array(mesh.cells_dimension))
+            except ValueError as error:
+                report.error(path, str(error))
+
+
+def _check_point_loads(tree, parts, report):
+    mesh = parts.get(("mesh",))
+    container = tree.get("nodal_point_load")
+    if mesh is None or not isinstance(container, list | dict):
+        return
+    for path, load in parts.items():
+        if path[:1] == ("nodal_point_load",) and not _is_inside(load.position, mesh):
+            key = 0 if isinstance(container[path[1]], list) else "position"
+            box = f"{list(mesh.origin)} to {list(mesh.upper)}"
+            report.error((*path, key), f"{list(load.position)} is outside the mesh, {box}")
+
+
+def _is_inside(position, mesh):
+    axes = zip(position, mesh.origin, mesh.upper, mesh.cells_dimension, strict=True)
+    return all(low - SLACK * h <= x <= high + SLACK * h for x, low, high, h in axes)
+
+
+def _check_steps(tree, parts, report):
+    time, step = tree.get("time"), tree.get("time_step")
+    key = "time" if step is None else "time_step"
+    if any(name not in tree or (name,) in report.errors for name in ("time", key)):
+        return
+    if step is None:
+        step = _automatic_step(tree, parts, report)
+    if step is not None and not time <= MOST_STEPS * step:
+        count = time / step if step else math.inf
+        report.error((key,), f"{count:.3g} steps of {step:.3g} s are needed, more than can be made")
+
+
+def _automatic_step(tree, parts, report):
+    """Return about the time step that will be chosen [s]; None if it cannot be told yet."""
+    mesh, share = parts.get(("mesh",)), tree.get(SHARE, getattr(Case, SHARE))
+    laws = [parts.get(path) for path, _ in places(tree, ("materials", "*"))]
+    if mesh is None or None in laws or (SHARE,) in report.errors:
+        return None
+    speed = max((law.sound_speed() for law in laws), default=0.0)
+    return share * min(mesh.cells_dimension) / speed if speed else None
+
+
+def _check_earthquake(parts, report):
+    motion = parts.get(("earthquake",))
+    if motion is None or not motion.active:
+        return
+    try:
+        for warning in motion.record().warnings:
+            report.warn((), warning)
+    except (OSError, ValueError) as error:
+        report.error(("earthquake", "file"), str(error))
+    mesh, case = parts.get(("mesh",)), parts.get(())
+    if mesh and case:
+        replaces_all = case.compatibility == "mpm-geomechanics"
+        for plane, kind in vars(mesh.boundary_conditions).items():
+            if kind is not None and (replaces_all or plane == "plane_Z0"):
+                here = ("mesh", "boundary_conditions", plane)
+                report.note(here, "without effect, since the earthquake moves the base")

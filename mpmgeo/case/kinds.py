@@ -1,0 +1,78 @@
+"""The kinds of value that the annotations of declarations stand for."""
+
+from collections.abc import Iterator
+from dataclasses import MISSING, Field, fields, is_dataclass
+from pathlib import Path
+from types import NoneType, UnionType
+from typing import NamedTuple, Union, get_args, get_origin, get_type_hints
+
+SCALARS = {
+    float: "number",
+    int: "integer",
+    bool: "boolean",
+    str: "text",
+    Path: "file",
+    dict: "free",
+}
+
+
+class Kind(NamedTuple):
+    """One of number, integer, boolean, text, file, free, object, list (any length), fixed (length).
+
+    `item`: kind of the entries of list and fixed; `classes`: the dataclasses an object may be.
+    """
+
+    name: str
+    item: "Kind | None" = None
+    length: int = 0
+    classes: tuple[type, ...] = ()
+
+    @property
+    def is_container(self) -> bool:
+        """Return whether it is a list of objects, which a case may also write as an object."""
+        return self.name == "list" and self.item.name == "object"
+
+
+class Declared(NamedTuple):
+    """One JSON key of a dataclass: its name, the kind of its value and its dataclass field."""
+
+    key: str
+    kind: Kind
+    field: Field
+
+    @property
+    def is_required(self) -> bool:
+        return self.field.default is MISSING
+
+
+def kind_of(annotation) -> Kind:
+    """Return the kind of value an annotation stands for; TypeError if it has none."""
+    if annotation in SCALARS:
+        return Kind(SCALARS[annotation])
+    if is_dataclass(annotation):
+        return Kind("object", classes=(annotation,))
+    origin, arguments = get_origin(annotation), get_args(annotation)
+    if origin in (Union, UnionType):
+        kinds = [kind_of(a) for a in arguments if a is not NoneType]
+        if len(kinds) == 1:
+            return kinds[0]
+        if all(kind.name == "object" for kind in kinds):
+            return Kind("object", classes=sum((kind.classes for kind in kinds), ()))
+    if origin is tuple and arguments[-1] is Ellipsis:
+        return Kind("list", kind_of(arguments[0]))
+    if origin is tuple and len(set(arguments)) == 1:
+        return Kind("fixed", kind_of(arguments[0]), len(arguments))
+    raise TypeError(f"{annotation} stands for no kind of JSON value")
+
+
+def declared(cls) -> Iterator[Declared]:
+    """Yield the JSON keys of a dataclass in the order of their declaration."""
+    hints = get_type_hints(cls)
+    for item in fields(cls):
+        if "doc" in item.metadata:
+            yield Declared(item.name, kind_of(hints[item.name]), item)
+
+
+def word_of(cls) -> str | None:
+    """Return the JSON word by which `"type"` chooses a class, None for a class without one."""
+    return getattr(cls, "type", None)

@@ -1,0 +1,112 @@
+"""Physics checks before a run: what is possible, but hardly meant."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+CELLS_PER_WAVELENGTH = 10
+"""Cells that a wave needs to travel without losing its shape."""
+
+SIGNIFICANT = 0.99
+"""Share of a record's power that lies below its highest significant frequency."""
+
+REACH = 1.5
+"""Cells between a particle and the nodes that it still carries mass to."""
+
+
+def lint(simulation) -> list[str]:
+    """Return warnings, one sentence each, about a simulation that has not started yet."""
+    case = simulation.case
+    position = simulation.field("position")
+    return [
+        *_time_step(simulation),
+        *_outside(position, case.mesh),
+        *_empty_bodies(case, simulation.field("body")),
+        *_idle_loads(case, position),
+        *_record(case, simulation.time_step),
+    ]
+
+
+def _time_step(simulation) -> Iterator[str]:
+    step, critical = simulation.time_step, simulation.critical_time_step
+    if step > critical:
+        yield f"time_step: {step:.4g} s exceeds the critical {critical:.4g} s; the run may diverge"
+
+
+def _outside(position, mesh) -> Iterator[str]:
+    outside = ((position < mesh.origin) | (position > mesh.upper)).any(axis=1)
+    if outside.any():
+        first = int(outside.argmax())
+        where = ", ".join(f"{x:g}" for x in position[first])
+        yield (
+            f"{np.count_nonzero(outside)} of {len(position)} particles start outside the mesh and "
+            f"take no part, the first of them row {first} at ({where}) m"
+        )
+
+
+def _empty_bodies(case, body_of_particle) -> Iterator[str]:
+    active = [body for body in case.body if body.active]
+    counts = np.bincount(np.asarray(body_of_particle, dtype=np.int64), minlength=len(active) + 1)
+    for number, body in enumerate(active, start=1):
+        if counts[number] == 0:
+            yield f"body {number} ({body.type}) holds no particle"
+
+
+def _idle_loads(case, position) -> Iterator[str]:
+    cell = np.array(case.mesh.cells_dimension)
+    for number, load in enumerate(case.load_distributed_box, start=1):
+        if not load.contains(position).any():
+            yield f"load_distributed_box, entry {number}: no particle in the box; nothing happens"
+    for number, load in enumerate(case.nodal_point_load, start=1):
+        distance = np.abs(position - load.position) / cell
+        if not (distance < REACH).all(axis=1).any():
+            yield (
+                f"nodal_point_load, entry {number}: no particle near {list(load.position)}; "
+                "the force has no effect until one comes"
+            )
+
+
+def _record(case, time_step) -> Iterator[str]:
+    if case.earthquake is None or not case.earthquake.active:
+        return
+    record = case.earthquake.record()
+    end, interval = record.time[-1], np.diff(record.time).min(initial=np.inf)
+    if end < case.time:
+        yield f"earthquake: the record ends at {end:g} s, the run at {case.time:g} s"
+    if time_step > interval:
+        yield (
+            f"earthquake: the record has a value every {interval:.4g} s, of which "
+            f"time steps of {time_step:.4g} s skip some"
+        )
+    frequency, speed = significant_frequency(record), _slowest_wave(case)
+    largest = max(case.mesh.cells_dimension)
+    if frequency * largest * CELLS_PER_WAVELENGTH > speed:
+        yield (
+            f"earthquake: the record shakes with up to {frequency:.3g} Hz; waves of that frequency "
+            f"are {speed / frequency:.3g} m long and need cells of "
+            f"{speed / frequency / CELLS_PER_WAVELENGTH:.3g} m or less"
+        )
+
+
+def significant_frequency(record) -> float:
+    """Return the frequency [Hz] below which a record has nearly all of its power."""
+    time = np.linspace(record.time[0], record.time[-1], len(record.time))
+    if time[-1] == time[0]:
+        return 0.0
+    series = [np.interp(time, record.time, a) for a in record.acceleration.T]
+    power = sum(np.abs(np.fft.rfft(a - a.mean())) ** 2 for a in series).cumsum()
+    index = int(np.searchsorted(power, SIGNIFICANT * power[-1])) if power[-1] > 0 else 0
+    return float(np.fft.rfftfreq(len(time), time[1] - time[0])[index])
+
+
+def _slowest_wave(case):
+    """Return the lowest wave speed of the materials in use [m/s]."""
+    used = {body.material_id for body in case.body if body.active}
+    return min(_wave_speed(law) for law in case.materials if law.id in used)
+
+
+def _wave_speed(law):
+    if not hasattr(law, "poisson"):
+        return law.sound_speed()
+    shear = law.young / (2 * (1 + law.poisson))
+    return float(np.sqrt(shear / law.density))

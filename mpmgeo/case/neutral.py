@@ -1,0 +1,73 @@
+"""Keys for parts that mpmgeo does not have: accepted while they switch nothing on."""
+
+from typing import NamedTuple
+
+from mpmgeo.case.aliases import places
+
+
+def _switch(key):
+    return {"type": "object", "properties": {key: {"type": "boolean", "const": False}}}
+
+
+EMPTY = {"type": ["array", "object"], "maxItems": 0, "maxProperties": 0}
+
+NEUTRAL = {
+    (): {
+        "terrain_contact": _switch("active"),
+        "hydro_mechanical_coupling": _switch("enabled"),
+        "prescribed_pressure_box": EMPTY,
+        "initial_pressure_box": EMPTY,
+        "initial_pressure_material": EMPTY,
+        "pressure_force_box": EMPTY,
+    },
+    ("results",): {"stl_contact_mesh": {"type": ["array", "string"], "items": {"const": "none"}}},
+}
+"""Place → keys that no declaration knows, with the JSON Schema of the values without effect."""
+
+
+class Unsupported(NamedTuple):
+    """What a value at a place would ask for; `values` empty: every value that is not neutral."""
+
+    part: str
+    values: tuple = ()
+
+
+UNSUPPORTED = {
+    ("n_phases",): Unsupported("two phases", (2,)),
+    ("save_state",): Unsupported("saving the state", (True,)),
+    ("load_state",): Unsupported("loading a state", (True,)),
+    ("materials", "*", "type"): Unsupported("a material law", ("mohr-coulomb", "newtonian")),
+    ("body", "*", "type"): Unsupported(
+        "a kind of body", ("particles", "particles_list", "particles_from_file", "gmsh")
+    ),
+    ("terrain_contact", "active"): Unsupported("contact with a terrain"),
+    ("hydro_mechanical_coupling", "enabled"): Unsupported("coupling with pore pressure"),
+    ("prescribed_pressure_box",): Unsupported("pore pressure"),
+    ("initial_pressure_box",): Unsupported("pore pressure"),
+    ("initial_pressure_material",): Unsupported("pore pressure"),
+    ("pressure_force_box",): Unsupported("pore pressure"),
+    ("results", "stl_contact_mesh", "*"): Unsupported("output of the terrain"),
+}
+
+
+def drop_inactive(tree, report):
+    """Remove what a case switches off itself and what would be wrong if it were read."""
+    bodies, later = tree.get("body"), UNSUPPORTED["body", "*", "type"].values
+    idle = [
+        path[-1]
+        for path, body in places(tree, ("body", "*"))
+        if body.get("active") is False and body.get("type") in later
+    ]
+    for name in idle:
+        report.note(("body", name), "inactive")
+    if idle and isinstance(bodies, dict):
+        tree["body"] = {name: body for name, body in bodies.items() if name not in idle}
+    elif idle:
+        kept = [index for index in range(len(bodies)) if index not in idle]
+        tree["body"] = [bodies[index] for index in kept]
+        report.written |= {("body", new): old for new, old in enumerate(kept)}
+    motion = tree.get("earthquake")
+    if isinstance(motion, dict) and motion.get("active", False) is False:
+        if motion and "active" not in motion:
+            report.warn(("earthquake",), 'without effect, since "active" is not true')
+        del tree["earthquake"]

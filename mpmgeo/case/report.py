@@ -1,0 +1,105 @@
+"""What there is to say about a case file: errors, warnings and notes, each with its JSON path."""
+
+import json
+import re
+from difflib import get_close_matches
+
+LONGEST = 60
+"""Characters of a value or key that a message shows."""
+
+
+class CaseError(ValueError):
+    """A case that cannot be simulated: all `problems`, and `warnings` and `notes` beside them."""
+
+    def __init__(self, problems, warnings=(), notes=()):
+        super().__init__("\n".join(problems))
+        self.problems = list(problems)
+        self.warnings = tuple(warnings)
+        self.notes = tuple(notes)
+
+
+class Report:
+    """Collects errors, warnings and notes; paths are tuples of canonical keys and list positions.
+
+    `written` maps a path to the key that the user wrote in place of its last, canonical one.
+    """
+
+    def __init__(self):
+        self.errors, self.warnings, self.notes = {}, {}, {}
+        self.written = {}
+
+    def error(self, path, message):
+        """Add an error; the first one of a path stands."""
+        self.errors.setdefault(path, self.line(path, message))
+
+    def warn(self, path, message):
+        self.warnings.setdefault((path, message), self.line(path, message))
+
+    def note(self, path, message):
+        self.notes.setdefault((path, message), self.line(path, message))
+
+    def line(self, path, message):
+        return f"{self.where(path)}: {message}" if path else message
+
+    def where(self, path):
+        """Return the path as the user wrote it, like `body.soil.point_p2[1]`."""
+        text = ""
+        for depth, key in enumerate(path, start=1):
+            key = self.written.get(path[:depth], key)
+            text += f"[{key}]" if isinstance(key, int) else f".{shown_key(key)}"
+        return text.removeprefix(".")
+
+    def is_broken(self, path):
+        """Return whether an error stands at a path or below it."""
+        return any(found[: len(path)] == path for found in self.errors)
+
+    def raise_errors(self, strict=False):
+        """Raise CaseError if there are errors; `strict` counts warnings as errors."""
+        problems = list(self.errors.values())
+        warnings = list(self.warnings.values())
+        if strict:
+            problems, warnings = problems + warnings, []
+        if problems:
+            raise CaseError(problems, warnings, self.notes.values())
+
+
+def shown(value) -> str:
+    """Return a JSON value as messages show it: one short line that any terminal can print."""
+    if isinstance(value, dict):
+        return f"an object of {_count(value, 'key')}" if value else "{}"
+    if isinstance(value, list) and (len(value) > 6 or _is_nested(value)):
+        return f"a list of {_count(value, 'value')}"
+    text = json.dumps(value, ensure_ascii=False, default=str)
+    text = text.encode("utf-8", "backslashreplace").decode()
+    text = "".join(c if c.isprintable() else f"\\u{ord(c):04x}" for c in text)
+    return text if len(text) <= LONGEST else text[: LONGEST - 1] + "…"
+
+
+def _count(values, noun):
+    return f"{len(values)} {noun}{'s'[: len(values) != 1]}"
+
+
+def _is_nested(values):
+    inside = [entry for value in values if isinstance(value, list) for entry in value]
+    return any(isinstance(value, dict) for value in values) or any(
+        isinstance(entry, dict | list) for entry in inside
+    )
+
+
+def shown_key(key) -> str:
+    """Return a key as it stands in a path: bare if plain, quoted otherwise."""
+    plain = re.fullmatch(r"[\w$. -]+", key) and len(key) <= LONGEST
+    return key if plain and key.strip() == key else shown(key)
+
+
+def nearest(word, known) -> str | None:
+    """Return the known word most like a given one, whatever case and separators, if any is."""
+    if not isinstance(word, str) or len(word) > LONGEST:
+        return None
+    plain = {_plain(candidate): candidate for candidate in known if isinstance(candidate, str)}
+    close = get_close_matches(_plain(word), plain, n=1, cutoff=0.6)
+    return plain[close[0]] if close else None
+
+
+def _plain(word):
+    return re.sub(r"[\W_]", "", word).casefold() or word

@@ -1,0 +1,180 @@
+"""The JSON Schema of cases, generated from the declarations."""
+
+from dataclasses import MISSING
+
+from mpmgeo.case.aliases import ALIASES, IGNORED
+from mpmgeo.case.kinds import declared, word_of
+from mpmgeo.case.neutral import NEUTRAL
+from mpmgeo.case.spec import LISTED, Case
+
+DIALECT = "https://json-schema.org/draft/2020-12/schema"
+INTEGERS = {"minimum": -(2**31), "maximum": 2**31 - 1}
+"""Whole numbers that every later step can hold."""
+
+CONTAINERS = tuple(key for key, kind, _ in declared(Case) if kind.is_container)
+
+BOUNDS = {
+    "above": "exclusiveMinimum",
+    "minimum": "minimum",
+    "below": "exclusiveMaximum",
+    "maximum": "maximum",
+}
+SCALARS = {
+    "number": {"type": "number"},
+    "integer": {"type": "integer"},
+    "boolean": {"type": "boolean"},
+    "text": {"type": "string"},
+    "file": {"type": "string", "minLength": 1},
+    "free": {"type": "object"},
+}
+
+
+def case_schema() -> dict:
+    """Return the JSON Schema (2020-12) of case files, in canonical and old spellings."""
+    definitions = {}
+    root = _object(Case, (), definitions)
+    root["properties"] = {
+        "$schema": {"type": "string", "description": "Name of this schema, for editors"},
+        **root["properties"],
+    }
+    return {
+        "$schema": DIALECT,
+        "title": "mpmgeo case",
+        **root,
+        "$defs": dict(sorted(definitions.items())),
+    }
+
+
+def plain(value):
+    """Return a declared value, such as a default, as JSON: objects whole, tuples as lists."""
+    if isinstance(value, tuple):
+        return [plain(v) for v in value]
+    if not hasattr(value, "__dataclass_fields__"):
+        return value if isinstance(value, bool | int | float | str | dict) else str(value)
+    word = word_of(type(value))
+    result = {} if word is None else {"type": word}
+    for key, _, _ in declared(type(value)):
+        item = getattr(value, key)
+        if item is not None:
+            result[key] = plain(item)
+    return list(result.values()) if isinstance(value, LISTED) else result
+
+
+def _object(cls, place, definitions):
+    """Return the schema of a dataclass: its keys, their old spellings, ignored keys, no others."""
+    properties = {} if word_of(cls) is None else {"type": {"const": word_of(cls)}}
+    required = []
+    for key, kind, item in declared(cls):
+        properties[key] = _property(key, kind, item, place, definitions)
+        if item.default is MISSING:
+            required.append(key)
+    for key, text in IGNORED.get(place, {}).items():
+        properties.setdefault(key, {"description": text})
+    for key, value in NEUTRAL.get(place, {}).items():
+        properties[key] = {"description": "Not supported yet: accepted while it is off", **value}
+    spellings = _old_spellings(place, properties)
+    result = {
+        "type": "object",
+        "description": cls.__doc__.splitlines()[0],
+        "properties": properties | spellings,
+        "additionalProperties": False,
+    }
+    return result | _required(required, place)
+
+
+def _required(keys, place):
+    """Return the schema that demands keys, each in its canonical or in an old spelling."""
+    result, choices = {"required": []}, []
+    for key in keys:
+        old = [alias.old for alias in ALIASES if alias.place == place and alias.new == key]
+        if old:
+            choices.append({"anyOf": [{"required": [word]} for word in (key, *old)]})
+        else:
+            result["required"].append(key)
+    return result | ({"allOf": choices} if choices else {})
+
+
+def _old_spellings(place, properties):
+    result = {}
+    for alias in ALIASES:
+        if alias.place == place and alias.new in properties:
+            text = f'Other spelling of "{alias.new}"'
+            old = {"description": text} | ({} if alias.is_equal else {"deprecated": True})
+            result[alias.old] = properties[alias.new] | old
+    return result
+
+
+def _property(key, kind, item, place, definitions):
+    unit = f" [{item.metadata['unit']}]" if item.metadata["unit"] else ""
+    result = {"description": item.metadata["doc"] + unit}
+    result |= _value(kind, item.metadata, (*place, key), definitions)
+    if item.default is MISSING and kind.is_container:
+        result |= {"minItems": 1, "minProperties": 1}
+    elif item.default is not MISSING and item.default is not None:
+        result["default"] = plain(item.default)
+    return result
+
+
+def _value(kind, metadata, place, definitions):
+    if kind.name == "object":
+        return _reference(kind, place, definitions)
+    if kind.is_container:
+        entry = _value(kind.item, metadata, (*place, "*"), definitions)
+        return {"type": ["array", "object"], "items": entry, "additionalProperties": entry}
+    if kind.name == "fixed":
+        entry = _value(kind.item, metadata, place, definitions)
+        return {"type": "array", "items": entry, "minItems": kind.length, "maxItems": kind.length}
+    if kind.name == "list":
+        entry = _value(kind.item, metadata, place, definitions)
+        types = ["array", "string"] if kind.item.name == "text" else "array"
+        return {"type": types, "items": entry, "minItems": 1}
+    return _scalar(kind, metadata)
+
+
+def _scalar(kind, metadata):
+    result = dict(SCALARS[kind.name])
+    if kind.name == "integer" and metadata["choices"] is None:
+        result |= INTEGERS
+    for name, value in metadata["bounds"].items():
+        result[BOUNDS[name]] = value
+    if metadata["choices"] is not None:
+        result["enum"] = list(metadata["choices"])
+    return result
+
+
+def _reference(kind, place, definitions):
+    """Return a reference to the schema of an object, after adding it to the definitions."""
+    name = "_".join(word for word in place if word != "*")
+    if name not in definitions:
+        definitions[name] = {}
+        if word_of(kind.classes[0]) is None:
+            definitions[name] = _object(kind.classes[0], place, definitions)
+        else:
+            definitions[name] = _choice(kind.classes, name, place, definitions)
+        if kind.classes[0] in LISTED:
+            _allow_list(definitions[name])
+    return {"$ref": f"#/$defs/{name}"}
+
+
+def _choice(classes, name, place, definitions):
+    """Return the schema of an object whose class the word `"type"` chooses."""
+    branches = []
+    for cls in classes:
+        definitions[f"{name}_{word_of(cls)}"] = _object(cls, place, definitions)
+        condition = {"properties": {"type": {"const": word_of(cls)}}, "required": ["type"]}
+        branches.append({"if": condition, "then": {"$ref": f"#/$defs/{name}_{word_of(cls)}"}})
+    words = [word_of(cls) for cls in classes]
+    kind = {"type": "string", "enum": words}
+    return {
+        "type": "object",
+        "properties": {"type": kind},
+        "required": ["type"],
+        "allOf": branches,
+    }
+
+
+def _allow_list(schema):
+    """Let an object also be written as the list of its values."""
+    entries = list(schema["properties"].values())
+    schema["type"] = ["array", "object"]
+    schema |= {"prefixItems": entries, "minItems": len(entries), "maxItems": len(entries)}

@@ -1,0 +1,165 @@
+"""What a case may say: every JSON key declared once, with unit, bounds, default and one sentence.
+
+Materials, bodies, loads, boundaries and damping declare their own keys in their own packages.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import reduce
+from math import isfinite, prod
+from operator import or_
+from pathlib import Path
+
+from mpmgeo.bodies import BODIES
+from mpmgeo.boundaries.planes import BoundaryConditions
+from mpmgeo.damping import DAMPINGS, NoDamping
+from mpmgeo.loads import BaseAcceleration, BoxLoad, PointLoad
+from mpmgeo.materials import LAWS
+from mpmgeo.mpm.schemes import SCHEMES
+from mpmgeo.output.fields import GRID_FIELDS, PARTICLE_FIELDS
+from mpmgeo.parameters import Counts, Vector, parameter
+from mpmgeo.shapes import SHAPES
+
+Law = reduce(or_, LAWS)
+Body = reduce(or_, BODIES)
+Damping = reduce(or_, DAMPINGS)
+
+LISTED = (PointLoad,)
+"""Classes that a case may write as the list of their values, without keys."""
+
+RESOLUTION = 1e-12
+"""Smallest cell edge relative to the largest coordinate that doubles still resolve usefully."""
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """The regular grid in which everything happens."""
+
+    cells_number: Counts = parameter("Number of cells along x, y, z", minimum=1, maximum=2**20)
+    cells_dimension: Vector = parameter("Edge lengths of a cell", unit="m", above=0)
+    origin: Vector = parameter("Corner of lowest coordinates", unit="m", default=(0.0, 0.0, 0.0))
+    boundary_conditions: BoundaryConditions = parameter(
+        "Conditions on the six bounding planes", default=BoundaryConditions()
+    )
+
+    @property
+    def upper(self) -> Vector:
+        """Return the corner of highest coordinates [m]."""
+        axes = zip(self.origin, self.cells_number, self.cells_dimension, strict=True)
+        return tuple(o + n * h for o, n, h in axes)
+
+    def problems(self) -> Iterator[tuple[str, str]]:
+        """Yield (key, message) where cells have no volume or cannot be told apart in doubles."""
+        if not 1e-300 < prod(self.cells_dimension) < 1e300:
+            yield "cells_dimension", "the volume of such a cell is no usable number"
+        for h, low, high in zip(self.cells_dimension, self.origin, self.upper, strict=True):
+            reach = max(abs(low), abs(high))
+            if not isfinite(reach) or h < RESOLUTION * reach:
+                yield "cells_dimension", f"cells of {h:g} m are lost in round-off at {reach:g} m"
+                return
+
+
+@dataclass(frozen=True)
+class Results:
+    """What the run writes, and how often."""
+
+    print: int = parameter("Number of outputs aimed at; 0 or less: every step", default=10)
+    material_point_results: tuple[str, ...] = parameter(
+        "Fields of the particle files; none: only the initial positions are written",
+        choices=(*PARTICLE_FIELDS, "all", "none"),
+        default=("id", "displacement"),
+    )
+    grid_nodal_results: tuple[str, ...] = parameter(
+        "Fields of the grid files; none: only the initial grid is written",
+        choices=(*GRID_FIELDS, "all", "none"),
+        default=("none", "id"),
+    )
+    grid_all_cells: bool = parameter(
+        "Whether grid files of more than ten million cells hold all of them, "
+        "not only those that particles touch",
+        default=False,
+    )
+
+    @property
+    def particle_fields(self) -> tuple[str, ...]:
+        """Return the keys of the particle fields to write, in the order of the files."""
+        return _chosen(self.material_point_results, PARTICLE_FIELDS, without=())
+
+    @property
+    def grid_fields(self) -> tuple[str, ...]:
+        """Return the keys of the grid fields to write, in the order of the files."""
+        return _chosen(self.grid_nodal_results, GRID_FIELDS, without=("id",))
+
+    @property
+    def particles_once(self) -> bool:
+        """Return whether only the initial particle file is written."""
+        return "none" in self.material_point_results
+
+    @property
+    def grid_once(self) -> bool:
+        """Return whether only the initial grid file is written."""
+        return "none" in self.grid_nodal_results
+
+
+def _chosen(words, fields, without):
+    if "none" in words:
+        return without
+    return tuple(key for key in fields if "all" in words or key in words)
+
+
+@dataclass(frozen=True)
+class Case:
+    """A simulation as its case file describes it, checked, defaults filled in, SI units."""
+
+    title: str = parameter("What the case is", default="")
+    reference: str = parameter("Where the case or its expected numbers come from", default="")
+    expected: dict | None = parameter(
+        "Numbers to compare the results with, in any form; the solver ignores them", default=None
+    )
+    time: float = parameter("Simulated time", unit="s", above=0)
+    time_step: float | None = parameter(
+        "Time step; absent or 0: chosen from the critical one", unit="s", minimum=0, default=None
+    )
+    critical_time_step_multiplier: float = parameter(
+        "Share of the critical time step to use when none is given", above=0, default=0.25
+    )
+    stress_scheme_update: str = parameter(
+        "When stresses are updated: last, last with modified velocities, or first",
+        choices=tuple(SCHEMES),
+        default="USL",
+    )
+    shape_function: str = parameter(
+        "Interpolation between particles and grid", choices=tuple(SHAPES), default="GIMP"
+    )
+    n_phases: int = parameter("Number of phases", choices=(1,), default=1)
+    n_threads: int | None = parameter(
+        "Number of threads; absent or 0: all processors", minimum=0, default=None
+    )
+    gravity: Vector = parameter("Acceleration of gravity", unit="m/s²", default=(0.0, 0.0, 0.0))
+    save_state: bool = parameter(
+        "Whether the final stresses are saved", choices=(False,), default=False
+    )
+    load_state: bool = parameter(
+        "Whether saved stresses are the initial ones", choices=(False,), default=False
+    )
+    compatibility: str | None = parameter(
+        "Reproduce deliberate differences to the program named here",
+        choices=("mpm-geomechanics",),
+        default=None,
+    )
+    mesh: Mesh = parameter("The grid")
+    materials: tuple[Law, ...] = parameter("The materials")
+    body: tuple[Body, ...] = parameter("The bodies")
+    damping: Damping = parameter("Damping of the motion", default=NoDamping())
+    nodal_point_load: tuple[PointLoad, ...] = parameter(
+        "Forces on single nodes, each [[x, y, z], [Fx, Fy, Fz]]", default=()
+    )
+    load_distributed_box: tuple[BoxLoad, ...] = parameter(
+        "Forces shared by the particles in a box", default=()
+    )
+    earthquake: BaseAcceleration | None = parameter("Motion of the base", default=None)
+    results: Results = parameter("What the run writes", default=Results())
+
+    notes: tuple[str, ...] = field(default=(), kw_only=True, compare=False)
+    warnings: tuple[str, ...] = field(default=(), kw_only=True, compare=False)
+    folder: Path = field(default=Path(), kw_only=True, compare=False)

@@ -1,0 +1,201 @@
+"""The command line: `mpmgeo case.json`."""
+
+import argparse
+import json
+import os
+import signal
+import sys
+from contextlib import contextmanager
+from pathlib import Path
+
+DONE, BAD_INPUT, DIVERGED, INTERRUPTED = 0, 2, 3, 130
+
+RESERVED = ("check", "init", "picture", "plot", "report", "benchmark", "sweep", "resume")
+"""Words kept free for subcommands; a case file of that name needs a path, like ./check."""
+
+MOST_MESSAGES = 100
+"""Messages of one kind that are printed; a file with more has one cause."""
+
+
+def main(argv=None) -> int:
+    """Serve a command line (`sys.argv` by default) and return its exit code.
+
+    0 done, 2 bad input or files that cannot be read or written, 3 diverged, 130 interrupted.
+    """
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="backslashreplace")
+    try:
+        arguments = _parse(argv)
+    except SystemExit as stop:
+        return stop.code or DONE
+    with _termination_as_interrupt():
+        try:
+            return _serve(arguments)
+        except KeyboardInterrupt:
+            _say("error", "interrupted")
+            return INTERRUPTED
+        except BrokenPipeError:
+            # Python flushes stdout once more at exit, which must not fail again.
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            return DONE
+        except OSError as error:
+            name = f"{error.filename}: " if error.filename else ""
+            _say("error", f"{name}{error.strerror or error}")
+            return BAD_INPUT
+        except MemoryError:
+            _say("error", "the case needs more memory than there is")
+            return BAD_INPUT
+
+
+def run(case, arguments) -> int:
+    """Simulate a case, write its files and return the exit code."""
+    from mpmgeo.run.watch import Diverged
+
+    output = Path(arguments.output)
+    simulation = _build(case, arguments, output)
+    _save_resolved(case, output)
+    try:
+        simulation.run()
+    except Diverged as error:
+        _say("error", str(error))
+        return DIVERGED
+    return DONE
+
+
+def check(case, arguments) -> int:
+    """Print a case with its defaults filled in, after everything that precedes a run."""
+    _build(case, arguments, output=None)
+    print(_resolved_text(case))
+    sys.stdout.flush()
+    return DONE
+
+
+def _serve(arguments):
+    from mpmgeo.case.load import CaseError, load_case
+
+    try:
+        case = load_case(arguments.case, strict=arguments.strict)
+        _say_all("note", () if arguments.quiet else case.notes)
+        _say_all("warning", case.warnings)
+        return (check if arguments.check else run)(case, arguments)
+    except CaseError as error:
+        _say_all("note", () if arguments.quiet else error.notes)
+        _say_all("warning", error.warnings)
+        _say_all("error", error.problems)
+        count = len(error.problems)
+        _say("error", f"{arguments.case}: {count} error{'s'[: count > 1]}; nothing was run")
+        return BAD_INPUT
+
+
+def _build(case, arguments, output):
+    """Return the simulation of a case, or raise CaseError with what keeps it from running."""
+    from mpmgeo.case.lint import lint
+    from mpmgeo.case.report import CaseError
+    from mpmgeo.simulation import Simulation
+
+    try:
+        simulation = Simulation(case, output=output, threads=arguments.threads)
+    except ValueError as error:
+        raise CaseError([str(error)]) from error
+    warnings = lint(simulation)
+    if warnings and arguments.strict:
+        raise CaseError(warnings)
+    _say_all("warning", warnings)
+    said = {*case.notes, *case.warnings, *warnings}
+    if not arguments.quiet:
+        _say_all("note", [text for text in simulation.messages if text not in said])
+    return simulation
+
+
+def _save_resolved(case, folder):
+    from mpmgeo.output.whole_file import whole_file
+
+    with whole_file(folder / "resolved-case.json") as file:
+        file.write((_resolved_text(case) + "\n").encode())
+
+
+def _resolved_text(case):
+    from mpmgeo.case.load import resolved
+
+    return json.dumps(resolved(case), indent=2, ensure_ascii=False)
+
+
+def _say_all(kind, texts):
+    texts = list(texts)
+    for text in texts[:MOST_MESSAGES]:
+        _say(kind, text)
+    if len(texts) > MOST_MESSAGES:
+        _say(kind, f"and {len(texts) - MOST_MESSAGES} more")
+
+
+def _say(kind, text):
+    print(f"{kind}: {text}", file=sys.stderr, flush=True)
+
+
+@contextmanager
+def _termination_as_interrupt():
+    """Let SIGTERM do whatever Ctrl-C does at that moment."""
+    try:
+        before = signal.signal(signal.SIGTERM, lambda *_: signal.raise_signal(signal.SIGINT))
+    except ValueError:  # outside the main thread, where signals are not ours to handle
+        yield
+        return
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+def _parse(argv):
+    parser = argparse.ArgumentParser(
+        prog="mpmgeo",
+        description="Simulate a JSON case with the explicit material point method.",
+        epilog="Exit codes: 0 done, 2 bad input, 3 the run diverged, 130 interrupted.",
+    )
+    parser.add_argument("words", metavar="CASE", nargs="*", help="the case file")
+    parser.add_argument("--input", metavar="CASE", help="the case file, too")
+    parser.add_argument(
+        "--output", metavar="DIR", default=".", help="folder of the results [working directory]"
+    )
+    parser.add_argument(
+        "--threads", metavar="N", type=_thread_count, help="number of threads, before n_threads"
+    )
+    parser.add_argument(
+        "--check", action="store_true", help="check the case and print it with defaults; no run"
+    )
+    parser.add_argument("--strict", action="store_true", help="take warnings as errors")
+    parser.add_argument("--quiet", action="store_true", help="print warnings and errors only")
+    parser.add_argument("--version", action=_Version, nargs=0, help="print the version")
+    arguments = parser.parse_args(argv)
+    arguments.case = _case_of(parser, arguments)
+    return arguments
+
+
+def _case_of(parser, arguments):
+    words = [*arguments.words, *([] if arguments.input is None else [arguments.input])]
+    if arguments.words and arguments.words[0] in RESERVED and not Path(words[0]).exists():
+        word = arguments.words[0]
+        parser.error(f"the word {word} is reserved for a later command; a case file has a path")
+    if len(words) != 1:
+        parser.error("name one case file" if words else "name a case file, like case.json")
+    return words[0]
+
+
+def _thread_count(text):
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"{text!r} is no number of threads, 1 or more")
+    return int(text)
+
+
+class _Version(argparse.Action):
+    """Looks the version up only when it is asked for, which takes a while."""
+
+    def __call__(self, parser, *_):
+        from importlib.metadata import PackageNotFoundError, version
+
+        try:
+            print(f"mpmgeo {version('mpmgeo')}")
+        except PackageNotFoundError:
+            print("mpmgeo, not installed")
+        parser.exit()

@@ -1,0 +1,242 @@
+"""The explicit material point method: its state, its stages and the step that joins them."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+
+from mpmgeo.boundaries.base_motion import STILL, BaseMotion
+from mpmgeo.boundaries.planes import Planes
+from mpmgeo.mpm import grid_update, transfer
+from mpmgeo.mpm.point_loads import PointLoads
+from mpmgeo.numerics.clock import Clock
+from mpmgeo.state.grid import Grid
+from mpmgeo.state.inspection import first_unsound, kinetic_energy
+from mpmgeo.state.particles import ParticleSet, Population
+from mpmgeo.state.sorting import sort
+
+SMALL = 4096  # particles up to which threads cost more than they save
+CUTOFF = 1e-12  # smallest nodal mass that counts, relative to the smallest particle mass
+
+
+class Departure(NamedTuple):
+    """Particles that left the mesh in one step."""
+
+    time: float  # [s]
+    rows: np.ndarray
+    position: np.ndarray  # (3,) of the first [m]
+
+
+class Unsound(Exception):
+    """A particle's state is NaN, infinite or faster than a cell in a step."""
+
+    def __init__(self, material, row, step, time, position, velocity, stress):
+        super().__init__(f"particle in row {row} diverged in step {step}")
+        self.material, self.row, self.step, self.time = material, row, step, time
+        self.position, self.velocity, self.stress = position, velocity, stress
+
+
+@dataclass
+class Solver:
+    """All that a step needs; `step` advances it. SI units.
+
+    `local`, `delayed`: share of local damping, in our form or in that of MPM-Geomechanics; None
+    without. `settles`: whether kinetic damping is on. Raises Unsound when particles diverge.
+    """
+
+    grid: Grid
+    sets: list[ParticleSet]
+    population: Population
+    shape: NamedTuple
+    scheme: Callable
+    planes: Planes
+    time_step: float
+    gravity: tuple
+    base: BaseMotion | None = None
+    point_loads: PointLoads | None = None
+    local: float | None = None
+    delayed: float | None = None
+    settles: bool = False
+
+    time: float = 0.0
+    steps: int = 0
+    departures: list[Departure] = field(default_factory=list)
+    clock: Clock = field(default_factory=Clock)
+
+    def __post_init__(self):
+        self.count = len(self.population.position)
+        self.cutoff = CUTOFF * min((float(s.m.min()) for s in self.sets), default=0.0)
+        self.small = self.count <= SMALL
+        self._motion = STILL
+        self._last_energy = 0.0
+        self.peak_energy = None  # before kinetic damping stopped the particles, if it is on
+        self._gone = self.count  # how many particles are not where the order says
+        if self.base is not None:
+            self.planes = self.base.planes(self.planes)
+
+    def arrange(self):
+        """Sort the particles now if some are not where the order says."""
+        if self._gone:
+            self._sort()
+
+    # The step
+
+    def step(self):
+        """Advance by one time step; the first one changes velocities by half a step."""
+        h = 0.5 * self.time_step if self.steps == 0 else self.time_step
+        if self.base is not None and not self.base.ended:
+            self._motion = self.base.advance(self.time, h)
+            if self.base.ended:
+                self.planes = self.base.planes_after(self.planes)
+        self.clock.begin()
+        if self._gone:
+            self._sort()
+            self.clock.lap("sort")
+        self.scheme(self, h)
+        self.steps += 1
+        self.time += self.time_step
+        if self.settles:
+            self._settle()
+            self.clock.lap("kinetic damping")
+
+    def kinetic_energy(self) -> float:
+        """Return the kinetic energy of the active particles [J]."""
+        return sum(kinetic_energy(s, self.small) for s in self.sets)
+
+    def check(self):
+        """Raise Unsound if a particle is NaN, infinite or would cross a cell in a step."""
+        for s in self.sets:
+            p = first_unsound(s, self.speed_limit, self.small)
+            if p >= 0:
+                self._refuse(s, p)
+
+    @property
+    def speed_limit(self) -> float:
+        """The speed at which a particle crosses the smallest cell in a step [m/s]."""
+        mesh = self.grid.mesh
+        return min(mesh.hx, mesh.hy, mesh.hz) / self.time_step
+
+    def _refuse(self, s, p):
+        material = int(self.population.material[s.row[p]])
+        state = [np.copy(a[p]) for a in (s.x, s.v, s.stress)]
+        raise Unsound(material, int(s.row[p]), self.steps, self.time, *state)
+
+    def _sort(self):
+        left = sort(self.grid, self.sets, self.small)
+        self._gone = 0
+        for s, count in zip(self.sets, left, strict=True):
+            if not count:
+                continue
+            new = slice(s.active, s.active + count)
+            speed = np.linalg.norm(s.v[new], axis=1)
+            broken = ~(speed <= self.speed_limit) | ~np.isfinite(s.x[new]).all(axis=1)
+            if broken.any():
+                self._refuse(s, s.active + int(broken.argmax()))
+            first = s.active + int(s.row[new].argmin())
+            rows = np.sort(s.row[new])
+            self.departures.append(Departure(self.time, rows, s.x[first].copy()))
+
+    def _settle(self):
+        """Stop all particles when the kinetic energy has passed a peak (Cundall 1982)."""
+        energy = self.peak_energy = self.kinetic_energy()
+        if energy < self._last_energy:
+            for s in self.sets:
+                s.v[: s.active] = 0.0
+            energy = 0.0
+        self._last_energy = energy
+
+    # Keeping a state
+
+    def keep(self, kept):
+        """Return a copy of what changes in a run, in the arrays of the copy `kept` if not None."""
+        arrays = [a for s in self.sets for a in s.arrays()]
+        copies = [np.empty_like(a) for a in arrays] if kept is None else kept["arrays"]
+        for copy, a in zip(copies, arrays, strict=True):
+            np.copyto(copy, a)
+        order = [(s.start, s.chunk) for s in self.sets]
+        return {"arrays": copies, "order": order, "time": self.time, "steps": self.steps}
+
+    def restore(self, kept):
+        """Go back to the particles that `keep` returned; to look at, not to run on from."""
+        copies = iter(kept["arrays"])
+        for s, (start, chunk) in zip(self.sets, kept["order"], strict=True):
+            for a in s.arrays():
+                np.copyto(a, next(copies))
+            s.start, s.chunk = start, chunk
+        self.time, self.steps = kept["time"], kept["steps"]
+        self.peak_energy = None
+
+    # The stages
+
+    def _run(self, kernel, *arguments):
+        return (kernel.serial if self.small else kernel)(self.shape, self.grid.mesh, *arguments)
+
+    def scatter(self, internal=True):
+        """Fill the tiles with mass, momentum and external force, and the internal one if asked."""
+        g = self.grid
+        for number, s in enumerate(self.sets):
+            self._run(
+                transfer.scatter,
+                *(number == 0, s.chunk, s.start, g.corner, s.half, s.x, s.v, s.m, s.V),
+                *(s.stress if internal else None, self.gravity, s.force, g.tiles),
+            )
+        self.clock.lap("scatter")
+
+    def update_momentum(self, h):
+        """Integrate the nodal momentum over h."""
+        g, motion = self.grid, self._motion
+        if self.point_loads is not None:
+            self.point_loads.apply(g)
+        self._run(
+            grid_update.update_momentum,
+            *(self.planes, motion.before, motion.acceleration, motion.drives),
+            *(self.local, self.delayed, h, self.cutoff),
+            *(g.chunk, g.active_corner, g.below, g.tiles, g.scratch, g.nodes),
+        )
+        self.clock.lap("grid update")
+
+    def update_velocity(self, base):
+        """Make nodal velocities of the momentum in the tiles; base nodes move with the base."""
+        g = self.grid
+        velocity = self._motion.after if base == "after" else self._motion.before
+        self._run(
+            grid_update.update_velocity,
+            *(self.planes, velocity, self._motion.drives, self.cutoff),
+            *(g.chunk, g.active_corner, g.below, g.tiles, g.scratch, g.nodes),
+        )
+        self.clock.lap("grid update")
+
+    def gather(self, h, stress=True):
+        """Move the particles; change velocities by h times the acceleration unless h is None."""
+        g = self.grid
+        for s in self.sets:
+            self._gone += self._run(
+                transfer.gather,
+                *(s.law if stress else None, s.chunk, s.start, g.corner, g.above, g.nodes),
+                *(g.scratch, s.half, s.x, None if h is None else s.v, s.V, s.stress, s.state),
+                *(self.time_step, 0.0 if h is None else h),
+            )
+        self.clock.lap("gather")
+
+    def remap(self, h):
+        """Change velocities by h times the acceleration, put the new momentum into the tiles."""
+        g = self.grid
+        for number, s in enumerate(self.sets):
+            self._run(
+                transfer.remap,
+                *(number == 0, s.chunk, s.start, g.corner, g.above, g.nodes, g.scratch),
+                *(s.half, s.x, s.v, s.m, h, g.tiles),
+            )
+        self.clock.lap("remap")
+
+    def strain_and_force(self):
+        """Update stress with the nodal velocities, add the internal force to the tiles."""
+        g = self.grid
+        for s in self.sets:
+            self._run(
+                transfer.strain_and_force,
+                *(s.law, s.chunk, s.start, g.corner, g.above, g.nodes, g.scratch, s.half),
+                *(s.x, s.V, s.stress, s.state, self.time_step, g.tiles),
+            )
+        self.clock.lap("strain and force")

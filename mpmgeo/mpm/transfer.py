@@ -1,0 +1,136 @@
+"""Transfers between particles and nodes: scatter (P2G), gather (G2P) and both in one pass.
+
+A block's particles have the first node of their stencils in the block, so all their nodes lie in the
+block's *tile*: the block and a halo on the upper sides, (4 + S − 1)³ nodes. Scatter fills the tiles,
+each from its own particles alone; gather reads from a copy of the nodes under the tile. No two
+threads ever write the same place, and every sum has one order.
+
+Record of a tile: m, m v (3), f (3), spare. Record of a node: v (3), a (3), m, spare.
+
+Loops run over chunks of blocks; a chunk has a scratch tile of its own.
+"""
+
+from numba import prange
+
+from mpmgeo.mpm.point import advance, internal_force, strain_increment
+from mpmgeo.mpm.tile import (
+    collect,
+    collect_value,
+    copy_tile,
+    deposit,
+    deposit_value,
+    inside,
+    locate,
+)
+from mpmgeo.numerics.jit import blockwise
+from mpmgeo.numerics.simd import LANES, lane, pack, splat
+from mpmgeo.shapes.shape import width
+from mpmgeo.state.grid import SIDE
+
+
+@blockwise
+def scatter(
+    shape, mesh, first, chunk, start, corner, half, x, v, m, V, stress, gravity, force, tiles
+):
+    """Add mass, momentum and force to the tiles; `first` empties them before.
+
+    `stress` None leaves out the internal force, `force` None a load beside gravity.
+    """
+    row = SIDE + width(shape) - 1
+    size = row * row * row * LANES
+    for c in prange(len(chunk) - 1):
+        for b in range(chunk[c], chunk[c + 1]):
+            if first:
+                tiles[b * size : (b + 1) * size] = 0.0
+            for p in range(start[b], start[b + 1]):
+                n, wx, wy, wz = locate(shape, mesh, corner, b, half, x, p)
+                M = m[p]
+                fx, fy, fz = M * gravity[0], M * gravity[1], M * gravity[2]
+                if force is not None:
+                    fx, fy, fz = fx + force[p, 0], fy + force[p, 1], fz + force[p, 2]
+                C0 = pack(M, M * v[p, 0], M * v[p, 1], M * v[p, 2], fx, fy, fz, 0.0)
+                if stress is None:
+                    deposit_value(tiles, b * size + n, row, wx, wy, wz, C0)
+                else:
+                    C1, C2, C3 = internal_force(mesh, V, stress, p)
+                    deposit(tiles, b * size + n, row, wx, wy, wz, C0, C1, C2, C3)
+
+
+@blockwise
+def gather(
+    shape, mesh, law, chunk, start, corner, above, nodes, scratch, half, x, v, V, stress, state, dt, h
+):
+    """Move the particles with the nodes and update their stress; return how many left their block.
+
+    Velocities change by h times the acceleration. With `v` None they stay, and positions follow the
+    velocity that `update_velocity` kept. With `law` None volume and stress stay.
+    """
+    row = SIDE + width(shape) - 1
+    size = row * row * row * LANES
+    gone = 0
+    for c in prange(len(chunk) - 1):
+        tile = scratch[c * size : (c + 1) * size]
+        for b in range(chunk[c], chunk[c + 1]):
+            if start[b] == start[b + 1]:
+                continue
+            copy_tile(nodes, above, b, row, tile)
+            for p in range(start[b], start[b + 1]):
+                n, wx, wy, wz = locate(shape, mesh, corner, b, half, x, p)
+                value, sx, sy, sz = collect(tile, n, row, wx, wy, wz)
+                if v is not None:
+                    for a in range(3):
+                        x[p, a] += lane(value, a) * dt
+                        v[p, a] += lane(value, a + 3) * h
+                else:
+                    for a in range(3):
+                        x[p, a] += lane(value, a + 3) * dt
+                if not inside(shape, mesh, corner, b, x, p):
+                    gone += 1
+                if law is not None:
+                    strain = strain_increment(mesh, sx, sy, sz, dt)
+                    advance(law, strain, V, stress, state, p, dt)
+    return gone
+
+
+@blockwise
+def remap(shape, mesh, first, chunk, start, corner, above, nodes, scratch, half, x, v, m, h, tiles):
+    """Change velocities by h times the acceleration and put the new momentum into the tiles."""
+    row = SIDE + width(shape) - 1
+    size = row * row * row * LANES
+    for c in prange(len(chunk) - 1):
+        tile = scratch[c * size : (c + 1) * size]
+        for b in range(chunk[c], chunk[c + 1]):
+            if first:
+                tiles[b * size : (b + 1) * size] = 0.0
+            if start[b] == start[b + 1]:
+                continue
+            copy_tile(nodes, above, b, row, tile)
+            for p in range(start[b], start[b + 1]):
+                n, wx, wy, wz = locate(shape, mesh, corner, b, half, x, p)
+                value = collect_value(tile, n, row, wx, wy, wz)
+                for a in range(3):
+                    v[p, a] += lane(value, a + 3) * h
+                M = m[p]
+                C0 = pack(M, M * v[p, 0], M * v[p, 1], M * v[p, 2], 0.0, 0.0, 0.0, 0.0)
+                deposit_value(tiles, b * size + n, row, wx, wy, wz, C0)
+
+
+@blockwise
+def strain_and_force(
+    shape, mesh, law, chunk, start, corner, above, nodes, scratch, half, x, V, stress, state, dt, tiles
+):
+    """Update stress with the nodal velocity and add the internal force of the new one to the tiles."""
+    row = SIDE + width(shape) - 1
+    size = row * row * row * LANES
+    for c in prange(len(chunk) - 1):
+        tile = scratch[c * size : (c + 1) * size]
+        for b in range(chunk[c], chunk[c + 1]):
+            if start[b] == start[b + 1]:
+                continue
+            copy_tile(nodes, above, b, row, tile)
+            for p in range(start[b], start[b + 1]):
+                n, wx, wy, wz = locate(shape, mesh, corner, b, half, x, p)
+                _, sx, sy, sz = collect(tile, n, row, wx, wy, wz)
+                advance(law, strain_increment(mesh, sx, sy, sz, dt), V, stress, state, p, dt)
+                C1, C2, C3 = internal_force(mesh, V, stress, p)
+                deposit(tiles, b * size + n, row, wx, wy, wz, splat(0.0), C1, C2, C3)

@@ -1,0 +1,67 @@
+"""Functions open to new models: one name, chosen by the type of the first argument, in Python and in kernels.
+
+Numba keeps a kernel in its disk cache when the kernel is specialised by the *type* of an argument,
+never when it takes or closes over another compiled function. So a law, shape or damping is a
+NamedTuple of its symbols, and its formula is registered for that type:
+
+    @generic
+    def update_stress(model, stress, strain): ...
+
+    @update_stress.register(Elastic)
+    def elastic(model, stress, strain): ...
+"""
+
+import inspect
+
+from numba.extending import overload
+
+from mpmgeo.numerics.jit import OPTIONS
+
+
+def generic(stub):
+    """Turn `stub(model, …)` into a function that picks its implementation by the type of `model`.
+
+    Returns the function, with `.register(cls)`, a decorator that raises ValueError for a class that
+    has an implementation already. Calling it for an unknown class raises TypeError.
+    """
+    implementations = {}
+    names = list(inspect.signature(stub).parameters)
+    arguments = ", ".join(names)
+
+    def find(cls):
+        for known in cls.__mro__:
+            if known in implementations:
+                return implementations[known]
+        raise TypeError(f"{stub.__name__} has no implementation for {cls.__name__}")
+
+    def chosen(model):
+        if model is None or getattr(model, "literal_value", model) is None:
+            return implementations.get(type(None))
+        cls = getattr(model, "instance_class", None)
+        return None if cls is None else find(cls)
+
+    # numba's overload needs the very parameter names of the implementations
+    scope = {"find": find, "chosen": chosen}
+    exec(  # noqa: S102
+        f"def {stub.__name__}({arguments}): return find(type({names[0]}))({arguments})\n"
+        f"def template({arguments}): return chosen({names[0]})",
+        scope,
+    )
+    function = scope[stub.__name__]
+    function.__doc__, function.__module__ = stub.__doc__, stub.__module__
+
+    def register(cls):
+        def add(implementation):
+            if cls in implementations:
+                raise ValueError(f"{stub.__name__} has an implementation for {cls.__name__}")
+            found = list(inspect.signature(implementation).parameters)
+            if found != names:
+                raise ValueError(f"{stub.__name__} takes ({arguments}), not ({', '.join(found)})")
+            implementations[cls] = implementation
+            return implementation
+
+        return add
+
+    function.register = register
+    overload(function, jit_options={**OPTIONS, "forceinline": True})(scope["template"])
+    return function

@@ -1,0 +1,88 @@
+"""Write the results of a run: particle files, grid files, their collections, kinetic energy."""
+
+from mpmgeo.output.energy import EnergySeries
+from mpmgeo.output.fields import grid_arrays, particle_arrays
+from mpmgeo.output.mesh_cells import all_cells, block_cells
+from mpmgeo.output.pvd import Collection, remove_previous
+from mpmgeo.output.vtu import write_hexahedra, write_points
+
+MANY_CELLS = 10_000_000  # above this a grid file holds the touched blocks only, unless asked for all
+
+
+class ResultFiles:
+    """Watches a run and writes what the case asks for into a folder, every `every` steps."""
+
+    def __init__(self, folder, case, every):
+        self.results = case.results
+        self.mesh = case.mesh
+        self.every = every
+        self.folder = folder
+        self.particles = Collection(folder / "particles" / "particleTimeSerie.pvd")
+        self.grid = Collection(folder / "grid" / "gridTimeSerie.pvd")
+        self.written = None  # step of the last output
+        self._cells = None
+
+    def begin(self, simulation):
+        """Remove the files of the run before, write the initial state."""
+        for collection in (self.particles, self.grid):
+            _, left = remove_previous(collection.path)
+            if left:
+                simulation.say(
+                    f"{collection.path.parent} holds {len(left)} other .vtu files, "
+                    f"the first of them {left[0].name}; files of this run may replace some"
+                )
+        self.energy = EnergySeries(self.folder / "time-energy.csv")
+        self._write(simulation, first=True)
+
+    def after_step(self, simulation):
+        """Write an output if one is due."""
+        if simulation.steps % self.every == 0:
+            self._write(simulation)
+
+    def end(self, simulation, error):
+        """Write the last state of a run that did not come to its end."""
+        if (error or simulation.interrupted) and self.written != simulation.steps:
+            self._write(simulation)
+
+    def _write(self, simulation, first=False):
+        label = simulation.label
+        if first or not self.results.particles_once:
+            self._write_particles(simulation, label)
+        if first or not self.results.grid_once:
+            self._write_grid(simulation, label)
+        self.energy.add(label, simulation.output_energy())
+        self.written = simulation.steps
+
+    def _write_particles(self, simulation, label):
+        number = len(self.particles.entries) + 1
+        path = self.particles.path.parent / f"particles_{number}.vtu"
+        arrays = particle_arrays(simulation.solver, self.results.particle_fields)
+        write_points(path, simulation.field("position"), arrays)
+        self.particles.add(label, path)
+        self.particles.write()
+
+    def _write_grid(self, simulation, label):
+        number = len(self.grid.entries) + 1
+        path = self.grid.path.parent / f"eulerianGrid_{number}.vtu"
+        cells = self._grid_cells(simulation)
+        arrays = grid_arrays(simulation.solver.grid, cells.node_id, self.results.grid_fields)
+        write_hexahedra(path, cells.points, cells.connectivity, arrays, {"CellId": cells.cell_id})
+        self.grid.add(label, path)
+        self.grid.write()
+
+    def _grid_cells(self, simulation):
+        if self._cells is not None:
+            return self._cells
+        x, y, z = (n + 4 for n in self.mesh.cells_number)
+        if x * y * z <= MANY_CELLS or self.results.grid_all_cells:
+            cells = all_cells(self.mesh)
+            if not self.results.grid_once:
+                self._cells = cells
+            return cells
+        if not self.grid.entries:
+            simulation.say(
+                f"the mesh has {x * y * z} cells; grid files hold those near particles "
+                '(all of them with "grid_all_cells": true in results)'
+            )
+        simulation.solver.arrange()
+        return block_cells(self.mesh, simulation.solver.grid.active_corner * 4 + 2)

@@ -1,0 +1,36 @@
+"""Declare a parameter of a case once: schema, checks, defaults, messages and manual read it from here."""
+
+from dataclasses import MISSING, field
+
+Vector = tuple[float, float, float]
+Counts = tuple[int, int, int]
+
+
+def parameter(
+    doc,
+    *,
+    unit="",
+    default=MISSING,
+    above=None,
+    minimum=None,
+    below=None,
+    maximum=None,
+    choices=None,
+    file=False,
+):
+    """Return the dataclass field of one JSON key.
+
+    `doc` is one sentence; `unit` is SI ("" for none); `above`/`below` are open bounds, `minimum`/
+    `maximum` closed ones, and bound every component of a vector; `choices` lists the accepted
+    words; `file` marks the name of a file, resolved against the case's folder. Without a
+    `default` the key is required.
+    """
+    bounds = {"above": above, "minimum": minimum, "below": below, "maximum": maximum}
+    metadata = {
+        "doc": doc,
+        "unit": unit,
+        "bounds": {name: value for name, value in bounds.items() if value is not None},
+        "choices": choices,
+        "file": file,
+    }
+    return field(default=default, metadata=metadata, kw_only=True)

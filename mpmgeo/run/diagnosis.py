@@ -1,0 +1,38 @@
+"""Why a run diverged: the first bad particle and the likely cause, in words."""
+
+import numpy as np
+
+
+def diagnose(simulation, error):
+    """Return a message about the particle that an Unsound error names.
+
+    The particle's last stress is the one it had when it was found.
+    """
+    dt = simulation.time_step
+    numbers = ", ".join(f"{x:.4g}" for x in error.position)
+    stress = ", ".join(f"{s:.4g}" for s in error.stress)
+    speed = float(np.linalg.norm(error.velocity))
+    return (
+        f"the run diverged in step {error.step} (time {error.time:.6g} s): particle {error.row} of "
+        f"material {error.material} at ({numbers}) m has a speed of {speed:.4g} m/s and the stress "
+        f"({stress}) Pa; {_cause(simulation, dt)}; the files show the last sound state"
+    )
+
+
+def _cause(simulation, dt):
+    critical = simulation.critical_time_step
+    if dt > critical:
+        return (
+            f"likely cause: the time step of {dt:.4g} s exceeds the critical one of "
+            f"{critical:.4g} s, try {0.5 * critical:.2g} s or less"
+        )
+    lightest = simulation.nodes().mass.min(initial=np.inf) / simulation.field("mass").min()
+    if lightest < 1e-6:
+        return (
+            f"likely cause: nodes of very little mass, the lightest {lightest:.1g} of a particle's; "
+            "try MUSL, or half the time step"
+        )
+    return (
+        f"the time step of {dt:.4g} s is below the critical one of {critical:.4g} s; likely causes: "
+        "very large loads or speeds, or particles squeezed to a fraction of their size"
+    )

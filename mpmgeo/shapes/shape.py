@@ -1,0 +1,29 @@
+"""What every shape function provides to the kernels: its 1D weights and slopes.
+
+On a Cartesian grid a shape function is the product of three 1D functions, each `width` nodes wide.
+A shape is a NamedTuple with that class attribute and one `stencil` registered for its type.
+"""
+
+from numba.extending import overload
+
+from mpmgeo.numerics.dispatch import generic
+
+
+@generic
+def stencil(shape, s, l):
+    """Return the S weights and then the S slopes of the nodes around a particle, one flat tuple.
+
+    `s` in [−½, ½]: position of the particle relative to the middle of its S nodes, in cells. `l`:
+    half of the particle's size, in cells, at most ½. Slopes are per cell.
+    """
+
+
+def width(shape):
+    """Return S, the number of nodes that the shape reaches along an axis."""
+    return type(shape).width
+
+
+@overload(width, jit_options={"forceinline": True})
+def _width(shape):
+    nodes = shape.instance_class.width
+    return lambda shape: nodes

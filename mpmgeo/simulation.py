@@ -1,0 +1,164 @@
+"""A case that runs: what scripts and the command line work with."""
+
+from pathlib import Path
+from typing import NamedTuple
+
+import numba
+import numpy as np
+
+from mpmgeo.case.build import build, critical_time_step
+from mpmgeo.mpm.solver import Unsound
+from mpmgeo.output.fields import particle_field
+from mpmgeo.run.diagnosis import diagnose
+from mpmgeo.run.loop import run
+from mpmgeo.run.watch import Diverged, Guard
+
+
+class Nodes(NamedTuple):
+    """Nodes that carry mass: index with two ghost layers, position [m], mass [kg], velocity [m/s]."""
+
+    index: np.ndarray
+    position: np.ndarray
+    mass: np.ndarray
+    velocity: np.ndarray
+
+
+class Simulation:
+    """A case with its state.
+
+    `output`: folder for the files of the run, None for none; `threads`: number of threads, by
+    default what the case says, or all. Raises ValueError for a file or geometry that cannot be used.
+    """
+
+    def __init__(self, case, output=None, threads=None):
+        self.case = case
+        self.output = None if output is None else Path(output)
+        self.messages = [*case.notes, *case.warnings]
+        self.solver, notes = build(case)
+        self.messages += notes
+        self.threads = self._set_threads(threads or case.n_threads)
+        self.critical_time_step = critical_time_step(case, self.field("velocity"))
+        self.interrupted = False
+
+    def _set_threads(self, wanted):
+        most = numba.config.NUMBA_NUM_THREADS
+        if wanted and wanted > most:
+            self.say(f"n_threads: {wanted} asked for, {most} available")
+        return min(wanted or most, most)
+
+    def say(self, message):
+        """Keep a message for the user."""
+        self.messages.append(message)
+
+    # Running
+
+    def run(self, until=None, watchers=()):
+        """Run to the end of the case, or to time `until` [s]; returns the simulation.
+
+        Raises Diverged when particles become NaN, infinite or too fast; the state is then the last
+        sound one. The first Ctrl-C ends the run after a whole step and sets `interrupted`.
+        """
+        every = self.output_interval
+        watchers = [Guard(every), *self._files(every), *watchers]
+        run(self, self.case.time if until is None else until, watchers)
+        return self
+
+    def _files(self, every):
+        if self.output is None:
+            return []
+        from mpmgeo.output.results import ResultFiles
+
+        return [ResultFiles(self.output, self.case, every)]
+
+    def step(self, steps=1):
+        """Advance by some steps; returns the simulation."""
+        for _ in range(steps):
+            self.advance()
+        return self
+
+    def advance(self):
+        """Advance by one step."""
+        if numba.get_num_threads() != self.threads:
+            numba.set_num_threads(self.threads)
+        self._guarded(self.solver.step)
+
+    def check(self):
+        """Raise Diverged unless all particles are sound."""
+        self._guarded(self.solver.check)
+
+    def _guarded(self, action):
+        try:
+            action()
+        except Unsound as error:
+            raise Diverged(diagnose(self, error)) from error
+
+    def keep(self, kept):
+        """Return a copy of the state, written over `kept` where that fits."""
+        return self.solver.keep(kept)
+
+    def restore(self, kept):
+        """Go back to a state that `keep` returned."""
+        self.solver.restore(kept)
+
+    # The state
+
+    @property
+    def time(self):
+        """Time of the state [s]."""
+        return self.solver.time
+
+    @property
+    def steps(self):
+        """Number of steps done."""
+        return self.solver.steps
+
+    @property
+    def time_step(self):
+        """Time step [s]."""
+        return self.solver.time_step
+
+    @property
+    def label(self):
+        """Time that files show for the state [s]: a step early as in MPM-Geomechanics if asked."""
+        early = self.case.compatibility is not None and self.steps > 0
+        return self.time - self.time_step if early else self.time
+
+    @property
+    def output_interval(self):
+        """Steps between two outputs."""
+        wanted = self.case.results.print
+        steps = int(self.case.time / self.time_step)
+        return max(1, steps // wanted) if wanted > 0 else 1
+
+    def kinetic_energy(self):
+        """Return the kinetic energy [J]."""
+        return self.solver.kinetic_energy()
+
+    def output_energy(self):
+        """Return the kinetic energy [J] of the step, before kinetic damping stopped the particles."""
+        peak = self.solver.peak_energy
+        return self.kinetic_energy() if peak is None else peak
+
+    def field(self, key):
+        """Return a field of all particles in row order: a key of the results, or position, mass,
+        volume; stress has the columns xx yy zz xy yz xz. Raises KeyError for an unknown key."""
+        return particle_field(self.solver, key)
+
+    def assign(self, key, values):
+        """Set "velocity" (n, 3) [m/s] or "stress" (n, 6) [Pa] of all particles, in row order.
+
+        Raises KeyError for another key.
+        """
+        name = {"velocity": "v", "stress": "stress"}[key]
+        values = np.asarray(values, float)
+        for s in self.solver.sets:
+            getattr(s, name)[:] = values[s.row]
+
+    def nodes(self):
+        """Return the nodes that carried mass in the last step."""
+        grid = self.solver.grid
+        records, index = grid.records().reshape(-1, 8), grid.indices().reshape(-1, 3)
+        used = records[:, 6] > 0
+        mesh = self.case.mesh
+        position = index[used] * np.array(mesh.cells_dimension) + mesh.origin
+        return Nodes(index[used] + 2, position, records[used, 6], records[used, :3])

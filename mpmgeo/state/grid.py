@@ -1,0 +1,135 @@
+"""The background grid: blocks of 4³ nodes, of which only those exist that particles reach.
+
+Node index I is at origin + I·cell; ghost layers have negative indices and need no storage of their
+own. A block is named by its *corner* c = I >> 2 per axis and by the key of that corner, sortable and
+unique. *Owner* blocks hold particles and own a tile; *active* blocks hold nodes under some tile.
+
+    above[b, o]   active block that lies o blocks up from owner b   (o = 0 is the owner itself)
+    below[a, o]   owner whose tile covers active block a from o blocks down, or −1
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from mpmgeo.numerics.simd import LANES, aligned
+
+SIDE = 4
+NODES = SIDE**3
+CHUNKS = 64  # pieces into which loops over blocks are cut; each has its own scratch tile
+
+KEY_BITS = 21
+KEY_SHIFT = 1 << (KEY_BITS - 1)
+
+
+class Mesh(NamedTuple):
+    """Symbols of the mesh for kernels: origin [m], cell sizes [m], their inverses, cell counts."""
+
+    ox: float
+    oy: float
+    oz: float
+    hx: float
+    hy: float
+    hz: float
+    ix: float
+    iy: float
+    iz: float
+    nx: int
+    ny: int
+    nz: int
+
+    @classmethod
+    def of(cls, origin, cell, cells):
+        """Return the symbols of a mesh with `cells` cells of size `cell` [m] from `origin` [m] on."""
+        inverse = [1.0 / h for h in cell]
+        return cls(*map(float, origin), *map(float, cell), *inverse, *map(int, cells))
+
+
+def keys_of(corner):
+    """Return the keys (n,) of block corners (n, 3)."""
+    c = np.asarray(corner, np.int64) + KEY_SHIFT
+    return (c[..., 0] << 2 * KEY_BITS) | (c[..., 1] << KEY_BITS) | c[..., 2]
+
+
+def corners_of(keys):
+    """Return the corners (n, 3) of block keys (n,)."""
+    mask = (1 << KEY_BITS) - 1
+    parts = [keys >> 2 * KEY_BITS, keys >> KEY_BITS & mask, keys & mask]
+    return np.stack(parts, axis=-1) - KEY_SHIFT
+
+
+def _find(table, keys):
+    """Return the position of each key in the sorted table, −1 where it is not there."""
+    at = np.minimum(np.searchsorted(table, keys), len(table) - 1)
+    return np.where(table[at] == keys, at, -1)
+
+
+class Grid:
+    """Blocks, tiles and nodes of one shape's width; `cover` sets them to where the particles are."""
+
+    def __init__(self, mesh: Mesh, width: int):
+        self.mesh = mesh
+        self.width = width
+        self.side = SIDE + width - 1  # nodes along a tile's edge
+        self.record = self.side**3 * LANES
+        self.reach = 1 + -(-(width - 1) // SIDE)  # blocks along an axis that a tile lies over
+        steps = np.arange(self.reach)
+        self._steps = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), -1).reshape(-1, 3)
+        self.keys = self.active = np.empty(0, np.int64)
+        self.tiles = self.nodes = aligned(0)
+        self.scratch = aligned(CHUNKS * self.record)
+        self.cover(self.keys)
+
+    def cover(self, keys):
+        """Make the sorted `keys` the owner blocks and find the active blocks around them."""
+        old, records = self.active, self.records().copy()
+        self.keys = keys
+        self.corner = corners_of(keys)
+        reached = keys_of(self.corner[:, None] + self._steps)
+        self.active = np.unique(reached)
+        self.active_corner = corners_of(self.active)
+        self.above = np.searchsorted(self.active, reached)
+        if len(keys):
+            self.below = _find(keys, keys_of(self.active_corner[:, None] - self._steps))
+        else:
+            self.below = np.empty((0, self.reach**3), np.int64)
+        self.tiles = _room(self.tiles, len(keys) * self.record)
+        self.nodes = _room(self.nodes, len(self.active) * NODES * LANES)
+        self.nodes[:] = 0.0
+        _, now, before = np.intersect1d(self.active, old, return_indices=True)
+        self.records()[now] = records[before]  # the last velocities, which damping may ask for
+        self.chunk = cut(np.arange(len(self.active) + 1))
+
+    def records(self):
+        """Return the node records of the active blocks, shape (blocks, 64, 8)."""
+        count = len(self.active)
+        return self.nodes[: count * NODES * LANES].reshape(count, NODES, LANES)
+
+    def indices(self):
+        """Return the node indices of the active blocks, shape (blocks, 64, 3)."""
+        steps = np.arange(SIDE)
+        inner = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), -1).reshape(-1, 3)
+        return self.active_corner[:, None] * SIDE + inner
+
+    def nbytes(self):
+        """Return the memory of all arrays [bytes]."""
+        arrays = (self.tiles, self.nodes, self.scratch, self.above, self.below, self.corner)
+        return sum(a.nbytes for a in (*arrays, self.active_corner, self.keys, self.active))
+
+
+def cut(start):
+    """Cut blocks into CHUNKS pieces of equal work, `start` (blocks + 1,) the work before each block.
+
+    Returns the first block of each piece and, last, the number of blocks.
+    """
+    share = np.linspace(0, start[-1], CHUNKS + 1)
+    bounds = np.searchsorted(start, share)
+    bounds[0], bounds[-1] = 0, len(start) - 1
+    return bounds
+
+
+def _room(buffer, count):
+    """Return a buffer for `count` doubles: the old one if it fits and is not far too large."""
+    if count <= buffer.size <= 2 * count:
+        return buffer
+    return aligned(count + count // 16)

@@ -1,0 +1,54 @@
+"""Particles: one set of arrays for each material, sorted by block; what never changes stays apart.
+
+A set's arrays are permuted whenever particles change blocks; `row` says which row of the case each
+entry is. Rows are in body order and, within a body, in order of creation; files are written in row
+order. Particles that left the mesh stand behind the others, from `start[-1]` on.
+"""
+
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+
+
+class Population(NamedTuple):
+    """What is fixed about all particles of a case, in row order."""
+
+    position: np.ndarray  # (n, 3) initial position [m]
+    size: np.ndarray  # (n, 3) edge lengths [m]
+    body: np.ndarray  # (n,) body number, from 1
+    material: np.ndarray  # (n,) material id
+    force: np.ndarray | None  # (n, 3) constant load beside gravity [N]
+
+
+@dataclass
+class ParticleSet:
+    """The particles of one material."""
+
+    law: NamedTuple  # symbols of the material law
+    row: np.ndarray  # (n,)
+    x: np.ndarray  # (n, 3) position [m]
+    v: np.ndarray  # (n, 3) velocity [m/s]
+    m: np.ndarray  # (n,) mass [kg]
+    V: np.ndarray  # (n,) volume [m³]
+    stress: np.ndarray  # (n, 6) effective stress [Pa]
+    half: object  # half-sizes in cells: one triple, or (n, 3)
+    force: np.ndarray | None = None  # (n, 3) constant load beside gravity [N]
+    state: np.ndarray | None = None  # (n, k) variables of the law
+    start: np.ndarray = field(init=False)  # (blocks + 1,) first particle of each block
+    chunk: np.ndarray = field(init=False)  # bounds of the chunks of blocks
+
+    def __post_init__(self):
+        self.start = np.array([0, len(self.row)])  # one heap, until the first sort
+        self.chunk = np.array([0, 1])
+
+    def arrays(self):
+        """Return the arrays that are permuted together."""
+        optional = (self.half if isinstance(self.half, np.ndarray) else None, self.force, self.state)
+        always = (self.row, self.x, self.v, self.m, self.V, self.stress)
+        return [a for a in (*always, *optional) if a is not None]
+
+    @property
+    def active(self) -> int:
+        """Number of particles that have not left the mesh."""
+        return int(self.start[-1])

@@ -1,0 +1,160 @@
+"""Keep particles sorted by block, moving only those that must move.
+
+When particles change blocks, the blocks' ranges shift a little. A particle whose place still lies in
+its block's new range stays; the others, in order, fill the places that are free. The order depends
+on nothing but the particles, so results are the same for any number of threads.
+"""
+
+import numpy as np
+from numba import prange
+
+from mpmgeo.numerics.jit import blockwise, compiled, inlined
+from mpmgeo.state.grid import KEY_BITS, KEY_SHIFT, cut
+
+OUTSIDE = -1
+UNKNOWN = -2  # UNKNOWN − key: the block with this key is not in the table
+
+
+@inlined
+def _corner(x, origin, inverse, cells, reach):
+    """Return the block corner along an axis, −KEY_SHIFT outside the mesh or for NaN."""
+    g = (x - origin) * inverse
+    if not (g >= 0.0 and g <= cells):
+        return -KEY_SHIFT
+    return int(np.floor(g - reach)) >> 2
+
+
+@inlined
+def _index(keys, key):
+    """Return the place of `key` in the sorted table, or UNKNOWN − key."""
+    low, high = 0, len(keys)
+    while low < high:
+        middle = (low + high) >> 1
+        if keys[middle] < key:
+            low = middle + 1
+        else:
+            high = middle
+    return low if low < len(keys) and keys[low] == key else UNKNOWN - key
+
+
+@blockwise
+def locate(mesh, reach, chunk, start, keys, x, target):
+    """Write the block of each particle: its place in `keys`, OUTSIDE, or UNKNOWN − key."""
+    for c in prange(len(chunk) - 1):
+        for b in range(chunk[c], chunk[c + 1]):
+            for p in range(start[b], start[b + 1]):
+                i = _corner(x[p, 0], mesh.ox, mesh.ix, mesh.nx, reach)
+                j = _corner(x[p, 1], mesh.oy, mesh.iy, mesh.ny, reach)
+                k = _corner(x[p, 2], mesh.oz, mesh.iz, mesh.nz, reach)
+                if min(i, j, k) == -KEY_SHIFT:
+                    target[p] = OUTSIDE
+                    continue
+                i, j, k = i + KEY_SHIFT, j + KEY_SHIFT, k + KEY_SHIFT
+                key = (i << 2 * KEY_BITS) | (j << KEY_BITS) | k
+                if b < len(keys) and keys[b] == key:
+                    target[p] = b
+                else:
+                    target[p] = _index(keys, key)
+
+
+@compiled
+def count(target, blocks):
+    """Return how many particles each block gets, and at the end how many are outside."""
+    counts = np.zeros(blocks + 1, np.int64)
+    for t in target:
+        counts[t if t >= 0 else blocks] += 1
+    return counts
+
+
+@compiled
+def assign(target, start, places, origin):
+    """List the places whose particle must move, and which of them each one's new particle is in.
+
+    The particle in `places[origin[i]]` goes to `places[i]`. Returns how many move.
+    """
+    blocks = len(start) - 2
+    free = np.empty(blocks + 1, np.int64)
+    moves = 0
+    for b in range(blocks + 1):
+        free[b] = moves
+        for p in range(start[b], start[b + 1]):
+            t = target[p]
+            if (t if t >= 0 else blocks) != b:
+                places[moves] = p
+                moves += 1
+    for i in range(moves):
+        t = target[places[i]]
+        b = t if t >= 0 else blocks
+        origin[free[b]] = i
+        free[b] += 1
+    return moves
+
+
+@blockwise
+def permute(a, places, origin, rows):
+    """Move row `places[origin[i]]` of a to row `places[i]`, by way of `rows`."""
+    width = a.shape[1]
+    for i in prange(len(origin)):
+        for c in range(width):
+            rows[i, c] = a[places[origin[i]], c]
+    for i in prange(len(origin)):
+        for c in range(width):
+            a[places[i], c] = rows[i, c]
+
+
+def _rows(a):
+    """Return an array as rows of doubles, whatever its eight-byte type, so that one kernel serves."""
+    return a.reshape(len(a), -1).view(np.float64)
+
+
+def _add_blocks(grid, sets, targets):
+    """Put the missing blocks in the table, drop the empty ones, renumber the targets."""
+    missing = [UNKNOWN - t[t <= UNKNOWN] for t in targets]
+    used = np.zeros(len(grid.keys), bool)
+    for t in targets:
+        used[t[t >= 0]] = True
+    old = grid.keys
+    keys = np.unique(np.concatenate([old[used], *missing]))
+    renumber = np.searchsorted(keys, old)
+    for t, new in zip(targets, missing, strict=True):
+        unknown = t <= UNKNOWN
+        inside = t >= 0
+        t[inside] = renumber[t[inside]]
+        t[unknown] = np.searchsorted(keys, new)
+    grid.cover(keys)
+
+
+def sort(grid, sets, serial):
+    """Sort all particle sets by block after some particle left its block.
+
+    Returns for each set how many particles left the mesh just now; they stand directly behind
+    `start[-1]` from then on. The grid's blocks are renewed when particles reached new ones.
+    """
+    reach = 0.5 * (grid.width - 2)
+    targets = []
+    for s in sets:
+        target = np.empty(s.active, np.int64)
+        kernel = locate.serial if serial else locate
+        kernel(grid.mesh, reach, s.chunk, s.start, grid.keys, s.x, target)
+        targets.append(target)
+    if any(len(t) and t.min() <= UNKNOWN for t in targets):
+        _add_blocks(grid, sets, targets)
+    left = []
+    for s, target in zip(sets, targets, strict=True):
+        counts = count(target, len(grid.keys))
+        start = np.concatenate([[0], np.cumsum(counts)])
+        places, origin = np.empty((2, len(target)), np.int64)
+        moves = assign(target, start, places, origin)
+        places, origin = places[:moves], origin[:moves]
+        if moves:
+            rows = np.empty(moves * 6)
+            for a in map(_rows, s.arrays()):
+                width = a.shape[1]
+                kernel = permute.serial if serial else permute
+                if moves * width > rows.size:
+                    rows = np.empty(moves * width)
+                kernel(a, places, origin, rows[: moves * width].reshape(moves, width))
+        s.start = start[:-1]
+        s.chunk = cut(s.start)
+        left.append(int(counts[-1]))
+    return left

@@ -1,0 +1,90 @@
+"""Keys of parts that do not exist yet: accepted while off, refused by name otherwise."""
+
+import pytest
+
+from mpmgeo.case.load import CaseError, load_case
+
+NEUTRAL = [
+    {"n_phases": 1},
+    {"n_phases": 1.0},
+    {"save_state": False, "load_state": False},
+    {"terrain_contact": {"active": False, "stl_mesh": "none.stl", "friction": "any"}},
+    {"terrain_contact": {}},
+    {"hydro_mechanical_coupling": {"enabled": False, "type": "one_way"}},
+    {"prescribed_pressure_box": {}, "initial_pressure_box": []},
+    {"initial_pressure_material": [], "pressure_force_box": {}},
+    {"results": {"stl_contact_mesh": "none"}},
+    {"results": {"stl_contact_mesh": ["none"]}},
+    {"results": {"stl_contact_mesh": []}},
+    {"terrain_contact": None, "n_phases": None},
+    {"earthquake": {"active": False}},
+    {"earthquake": {"active": False, "file": "missing.csv"}},
+    {"earthquake": {}},
+]
+
+
+@pytest.mark.parametrize("keys", NEUTRAL, ids=str)
+def test_neutral_values_change_nothing(case, keys):
+    assert load_case(case | keys, strict=True) == load_case(case)
+
+
+@pytest.mark.parametrize(
+    ("keys", "where"),
+    [
+        ({"n_phases": 2}, "n_phases: 2"),
+        ({"save_state": True}, "save_state: true"),
+        ({"load_state": True}, "load_state: true"),
+        ({"terrain_contact": {"active": True}}, "terrain_contact.active: true"),
+        ({"hydro_mechanical_coupling": {"enabled": True}}, "hydro_mechanical_coupling.enabled"),
+        ({"prescribed_pressure_box": [{"pressure": 1}]}, "prescribed_pressure_box"),
+        ({"initial_pressure_box": {"a": {}}}, "initial_pressure_box"),
+        ({"initial_pressure_material": [{}]}, "initial_pressure_material"),
+        ({"pressure_force_box": [{}]}, "pressure_force_box"),
+        ({"results": {"stl_contact_mesh": ["all"]}}, "results.stl_contact_mesh[0]"),
+        ({"material": [{"type": "mohr-coulomb", "id": 1}]}, "material[0].type"),
+        ({"material": {"w": {"type": "newtonian", "id": 1}}}, "material.w.type"),
+        ({"body": [{"type": "particles"}]}, "body[0].type"),
+        ({"body": [{"type": "particles_list"}]}, "body[0].type"),
+        ({"body": [{"type": "particles_from_file"}]}, "body[0].type"),
+        ({"body": [{"type": "gmsh"}]}, "body[0].type"),
+    ],
+)
+def test_anything_else_is_not_supported_yet(case, keys, where):
+    with pytest.raises(CaseError) as caught:
+        load_case(case | keys)
+    assert caught.value.problems[0].startswith(where)
+    assert "is not supported yet" in caught.value.problems[0]
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [
+        {"n_phases": 1.5},
+        {"n_phases": True},
+        {"save_state": "no"},
+        {"terrain_contact": {"active": 0}},
+        {"hydro_mechanical_coupling": True},
+        {"earthquake": {"active": "yes"}},
+    ],
+)
+def test_wrong_types_are_not_called_unsupported(case, keys):
+    with pytest.raises(CaseError, match="is not accepted") as caught:
+        load_case(case | keys)
+    assert "not supported" not in str(caught.value)
+
+
+def test_a_record_without_the_switch_is_warned_of(case):
+    case["earthquake"] = {"file": "record.csv"}
+    assert load_case(case).warnings == ('earthquake: without effect, since "active" is not true',)
+
+
+def test_inactive_bodies_of_other_kinds_are_left_out(case):
+    block = case["body"]["block"]
+    case["body"] = [{"type": "gmsh", "active": False}, block | {"material_id": 9}]
+    with pytest.raises(CaseError) as caught:
+        load_case(case)
+    assert caught.value.problems[0].startswith("body[1].material_id: 9")
+    case["body"] = {"a": {"type": "particles", "active": False}, "b": block}
+    loaded = load_case(case)
+    assert [body.type for body in loaded.body] == ["cuboid"]
+    assert loaded.notes == ("body.a: inactive",)

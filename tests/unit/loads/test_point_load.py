@@ -1,0 +1,28 @@
+import numpy as np
+import pytest
+
+from mpmgeo.loads import PointLoad
+
+
+def node(position, origin=(0, 0, 0), cell=(1, 1, 1)):
+    return PointLoad(position=position, force=(0, 0, -1)).node(origin, cell).tolist()
+
+
+def test_indices_count_the_two_ghost_layers():
+    assert node((0, 0, 0)) == [2, 2, 2]
+    assert node((3, 4, 5)) == [5, 6, 7]
+
+
+@pytest.mark.parametrize(("x", "index"), [(0.49, 2), (0.5, 3), (0.51, 3), (1.5, 4), (-0.2, 2)])
+def test_the_nearest_node_and_the_upper_one_halfway(x, index):
+    assert node((x, x, x)) == [index] * 3
+
+
+def test_halfway_is_not_decided_by_round_off():
+    # 0.15 / 0.1 is 1.4999999999999998 in floating point.
+    assert node((0.15, 0.25, 0.35), cell=(0.1, 0.1, 0.1)) == [4, 5, 6]
+
+
+def test_origin_and_anisotropic_cells():
+    position = np.array([-1.0, 2.0, 0.3]) + np.array([0.5, 0.25, 2.0]) * [3.2, 1.9, 0.4]
+    assert node(tuple(position), (-1.0, 2.0, 0.3), (0.5, 0.25, 2.0)) == [5, 4, 2]
