@@ -13,6 +13,8 @@ DONE, BAD_INPUT, DIVERGED, INTERRUPTED = 0, 2, 3, 130
 RESERVED = ("check", "init", "picture", "plot", "report", "benchmark", "sweep", "resume")
 """Words kept free for subcommands; a case file of that name needs a path, like ./check."""
 
+COMPILING = "compiling the kernels for this kind of case (once; later runs start at once)"
+
 MOST_MESSAGES = 100
 """Messages of one kind that are printed; a file with more has one cause."""
 
@@ -50,16 +52,28 @@ def main(argv=None) -> int:
 
 def run(case, arguments) -> int:
     """Simulate a case, write its files and return the exit code."""
+    from mpmgeo.run.progress import Compilation, Progress
     from mpmgeo.run.watch import Diverged
 
+    quiet = arguments.quiet
     output = Path(arguments.output)
-    simulation = _build(case, arguments, output)
-    _save_resolved(case, output)
-    try:
-        simulation.run()
-    except Diverged as error:
-        _say("error", str(error))
-        return DIVERGED
+    with Compilation(lambda: None if quiet else _say("note", COMPILING)) as compilation:
+        simulation = _build(case, arguments, output)
+        _save_resolved(case, output)
+        shown = len(simulation.messages)
+        try:
+            simulation.run(watchers=[] if quiet else [Progress(compilation)])
+        except Diverged as error:
+            _say("error", str(error))
+            return DIVERGED
+        finally:
+            if quiet:
+                _say_all("warning", simulation.messages[shown:])
+    if simulation.interrupted:
+        _say("note", f"interrupted after step {simulation.steps}; results are in {output.resolve()}")
+        return INTERRUPTED
+    if not quiet:
+        _say("note", f"results are in {output.resolve()}")
     return DONE
 
 

@@ -39,6 +39,7 @@ class Simulation:
         self.threads = self._set_threads(threads or case.n_threads)
         self.critical_time_step = critical_time_step(case, self.field("velocity"))
         self.interrupted = False
+        self._told = set()
 
     def _set_threads(self, wanted):
         most = numba.config.NUMBA_NUM_THREADS
@@ -60,7 +61,10 @@ class Simulation:
         """
         every = self.output_interval
         watchers = [Guard(every), *self._files(every), *watchers]
-        run(self, self.case.time if until is None else until, watchers)
+        try:
+            run(self, self.case.time if until is None else until, watchers)
+        finally:
+            self._report_departures()
         return self
 
     def _files(self, every):
@@ -81,6 +85,37 @@ class Simulation:
         if numba.get_num_threads() != self.threads:
             numba.set_num_threads(self.threads)
         self._guarded(self.solver.step)
+        self._report_events()
+
+    def _report_events(self):
+        solver = self.solver
+        if solver.departures and self._once("departure"):
+            first = solver.departures[0]
+            where = ", ".join(f"{x:.4g}" for x in first.position)
+            self.say(
+                f"particles leave the mesh and take no further part: the first is particle "
+                f"{first.rows[0]}, at ({where}) m after {first.time:.6g} s"
+            )
+        if solver.base is not None and solver.base.ended and self._once("record"):
+            held = "all planes are fixed" if self.case.compatibility else "the base is held"
+            self.say(f"the record of the base ended before {self.time:.6g} s; {held} from then on")
+        if solver.point_loads is not None and self._once("point loads"):
+            for number in np.flatnonzero(solver.point_loads.idle(solver.grid)) + 1:
+                self.say(
+                    f"nodal_point_load, entry {number}: its node carries no mass at the start; "
+                    "the force acts only while material is there"
+                )
+
+    def _once(self, topic):
+        new = topic not in self._told
+        self._told.add(topic)
+        return new
+
+    def _report_departures(self):
+        count = sum(len(d.rows) for d in self.solver.departures)
+        if count:
+            last = self.solver.departures[-1].time
+            self.say(f"{count} particles left the mesh, the last of them after {last:.6g} s")
 
     def check(self):
         """Raise Diverged unless all particles are sound."""

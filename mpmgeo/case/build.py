@@ -15,6 +15,7 @@ from mpmgeo.shapes import SHAPES
 from mpmgeo.state.grid import Grid, Mesh
 from mpmgeo.state.particles import ParticleSet, Population
 
+CUTOFF = 1e-12  # smallest nodal mass that counts, relative to the smallest particle mass
 HALF = 0.5  # cells: the largest half-size for which the shapes sum to one
 
 
@@ -30,9 +31,11 @@ def build(case):
     legacy = case.compatibility is not None
     damping = case.damping.value if isinstance(case.damping, LocalDamping) else 0.0
     delayed = legacy and case.stress_scheme_update != "USF"
+    sets = _sets(case, population, velocity, notes)
+    lightest = min((float(s.m.min()) for s in sets), default=0.0)
     solver = Solver(
         grid=Grid(mesh, shape.width),
-        sets=_sets(case, population, velocity, notes),
+        sets=sets,
         population=population,
         shape=shape,
         scheme=SCHEMES[case.stress_scheme_update],
@@ -44,6 +47,7 @@ def build(case):
         local=damping if damping and not delayed else None,
         delayed=damping if damping and delayed else None,
         settles=isinstance(case.damping, KineticDamping),
+        cutoff=0.0 if legacy else CUTOFF * lightest,
     )
     return solver, notes
 

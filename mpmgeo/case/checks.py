@@ -104,10 +104,3 @@ def _check_earthquake(parts, report):
             report.warn((), warning)
     except (OSError, ValueError) as error:
         report.error(("earthquake", "file"), str(error))
-    mesh, case = parts.get(("mesh",)), parts.get(())
-    if mesh and case:
-        replaces_all = case.compatibility == "mpm-geomechanics"
-        for plane, kind in vars(mesh.boundary_conditions).items():
-            if kind is not None and (replaces_all or plane == "plane_Z0"):
-                here = ("mesh", "boundary_conditions", plane)
-                report.note(here, "without effect, since the earthquake moves the base")

@@ -5,6 +5,8 @@ from mpmgeo.case.neutral import UNSUPPORTED
 from mpmgeo.case.report import nearest, shown
 from mpmgeo.case.schema import CONTAINERS, INTEGERS, case_schema
 
+FIELD_ENTRIES = tuple((key, "*") for key in FIELD_LISTS)
+
 LIMITS = {
     "exclusiveMinimum": "above",
     "minimum": "at least",
@@ -31,7 +33,7 @@ def validate(tree, report):
         if error.validator == "additionalProperties":
             _unknown(error, path, schema, report)
         elif error.validator in ("required", "anyOf"):
-            _missing(error, path, report)
+            _missing(error, path, schema, report)
         else:
             _wrong(error, path, schema, report)
 
@@ -76,32 +78,28 @@ def _limits(schema, is_limit):
 
 def _wrong(error, path, schema, report):
     value, place = error.instance, place_of(path)
-    words = error.schema.get("enum", ())
-    near = nearest(value, words)
+    near = nearest(value, error.schema.get("enum", ()))
     hint = f"; did you mean {shown(near)}?" if near else ""
-    if place[-1] == "*" and place[-2:-1] and place[-2] in FIELD_LISTS and isinstance(value, str):
-        known = hint or f"; known: {accepted(error.schema)}"
-        report.warn(path, f"{shown(value)} is no field, ignored{known}")
-        return
+    text = accepted(error.schema, is_limit=error.validator in LIMITS)
     later = UNSUPPORTED.get(place)
     if later and error.validator != "type" and (not later.values or value in later.values):
-        message = f"{shown(value)} is not supported yet ({later.part})"
-        report.error(path, f"{message}; accepted: {accepted(error.schema)}")
-        return
-    text = accepted(error.schema, is_limit=error.validator in LIMITS)
-    if isinstance(value, str) and error.schema.get("type") in ("number", "integer"):
-        text += ", without quotes"
-    about = _about(error, schema)
-    report.error(path, f"{shown(value)} is not accepted; accepted: {text}{about}{hint}")
+        report.error(path, f"{shown(value)} is not supported yet ({later.part}); accepted: {text}")
+    elif place[-2:] in FIELD_ENTRIES and isinstance(value, str):
+        report.warn(path, f"{shown(value)} is no field, ignored{hint or f'; known: {text}'}")
+    else:
+        if isinstance(value, str) and error.schema.get("type") in ("number", "integer"):
+            text += ", without quotes"
+        about = _about(error, schema)
+        report.error(path, f"{shown(value)} is not accepted; accepted: {text}{about}{hint}")
 
 
-def _missing(error, path, report):
+def _missing(error, path, schema, report):
     if error.validator == "anyOf":
         keys = [error.validator_value[0]["required"][0]]
     else:
         keys = [key for key in error.validator_value if key not in error.instance]
     for key in keys:
-        wanted = error.schema.get("properties", {}).get(key, {})
+        wanted = error.schema.get("properties", schema["properties"]).get(key, {})
         text = wanted.get("description", "")
         about = f"; needed: {accepted(wanted)}{text and f' ({text})'}" if wanted else ""
         report.error((*path, key), f"missing{about}")

@@ -110,9 +110,11 @@ class Builder:
 
     def _sound(self, made, path, step):
         """Return an object without problems, BROKEN otherwise."""
-        problems = list(made.problems()) if hasattr(made, "problems") else []
-        for key, message in problems:
-            self.report.error((*path, step[key]), message)
+        problems = {}
+        for key, message in made.problems() if hasattr(made, "problems") else ():
+            problems.setdefault(key, []).append(message)
+        for key, messages in problems.items():
+            self.report.error((*path, step[key]), "; ".join(messages))
         if problems:
             return BROKEN
         self.parts[path] = made

@@ -69,8 +69,12 @@ def shown(value) -> str:
         return f"an object of {_count(value, 'key')}" if value else "{}"
     if isinstance(value, list) and (len(value) > 6 or _is_nested(value)):
         return f"a list of {_count(value, 'value')}"
-    text = json.dumps(value, ensure_ascii=False, default=str)
-    text = text.encode("utf-8", "backslashreplace").decode()
+    return printable(json.dumps(value, ensure_ascii=False, default=str))
+
+
+def printable(text) -> str:
+    """Return a text cut to a length that messages can show, without what would upset a terminal."""
+    text = text[: LONGEST + 1].encode("utf-8", "backslashreplace").decode()
     text = "".join(c if c.isprintable() else f"\\u{ord(c):04x}" for c in text)
     return text if len(text) <= LONGEST else text[: LONGEST - 1] + "…"
 

@@ -5,7 +5,7 @@ import math
 import os
 from pathlib import Path
 
-from mpmgeo.case.report import CaseError, nearest, shown
+from mpmgeo.case.report import CaseError, nearest, printable, shown
 
 DEEPEST = 64
 """Levels of nesting beyond which no case goes."""
@@ -165,7 +165,7 @@ def _syntax(error):
     start = error.doc.rfind("\n", 0, error.pos) + 1
     line = error.doc[start:].split("\n", 1)[0].strip()
     message = f"line {error.lineno}, column {error.colno}: not JSON: {_reason(error)}"
-    return f"{message}: {shown(line)[1:-1]}" if line else message
+    return f"{message}: {printable(line)}" if line else message
 
 
 def _reason(error):

@@ -17,7 +17,6 @@ from mpmgeo.state.particles import ParticleSet, Population
 from mpmgeo.state.sorting import sort
 
 SMALL = 4096  # particles up to which threads cost more than they save
-CUTOFF = 1e-12  # smallest nodal mass that counts, relative to the smallest particle mass
 
 
 class Departure(NamedTuple):
@@ -58,6 +57,7 @@ class Solver:
     local: float | None = None
     delayed: float | None = None
     settles: bool = False
+    cutoff: float = 0.0  # [kg] a node takes part if its mass exceeds it
 
     time: float = 0.0
     steps: int = 0
@@ -66,7 +66,6 @@ class Solver:
 
     def __post_init__(self):
         self.count = len(self.population.position)
-        self.cutoff = CUTOFF * min((float(s.m.min()) for s in self.sets), default=0.0)
         self.small = self.count <= SMALL
         self._motion = STILL
         self._last_energy = 0.0

@@ -1,0 +1,172 @@
+"""What the user sees of a run: a live bar on a terminal, plain lines elsewhere, a table at the end."""
+
+import sys
+from time import perf_counter
+
+from numba.core import event
+
+REFRESH = 0.2  # s between updates of the bar
+LINE = 10.0  # s between plain lines
+
+
+class Compilation(event.Listener):
+    """Notices when kernels are compiled, tells the user once, and adds up the time."""
+
+    def __init__(self, tell):
+        self.seconds = 0.0
+        self._tell = tell
+        self._depth = 0
+
+    def __enter__(self):
+        event.register("numba:compile", self)
+        return self
+
+    def __exit__(self, *_):
+        event.unregister("numba:compile", self)
+
+    def on_start(self, _):
+        """Note that a compilation begins, perhaps inside another one; numba calls this."""
+        if self._depth == 0:
+            self._begin = perf_counter()
+            if not self.seconds:
+                self._tell()
+        self._depth += 1
+
+    def on_end(self, _):
+        """Count the time of an outermost compilation; numba calls this."""
+        self._depth -= 1
+        if self._depth == 0:
+            self.seconds += perf_counter() - self._begin
+
+
+class Progress:
+    """Watches a run and shows step, time, share done, time left, speed and kinetic energy."""
+
+    def __init__(self, compilation, stream=None):
+        self.compilation = compilation
+        self.stream = stream or sys.stderr
+        self.live = self.stream.isatty()
+        self._bar = None
+
+    def begin(self, simulation):
+        """Start the clock and, on a terminal, the bar."""
+        self._start = self._shown = perf_counter()
+        self._first_step = None
+        self._steps = 0
+        self._messages = len(simulation.messages)
+        if self.live:
+            self._begin_bar(simulation)
+
+    def _begin_bar(self, simulation):
+        from rich.console import Console
+        from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
+        self._bar = Progress(
+            TextColumn("step {task.fields[step]}"),
+            TextColumn("t = {task.fields[time]:.4g} s"),
+            BarColumn(),
+            TextColumn("{task.percentage:3.0f}%"),
+            TimeRemainingColumn(),
+            TextColumn("{task.fields[speed]:.2f} M particle-steps/s"),
+            TextColumn("Ekin {task.fields[energy]:.3e} J"),
+            console=Console(file=self.stream),
+            refresh_per_second=1 / REFRESH,
+        )
+        self._task = self._bar.add_task(
+            "run", total=simulation.case.time, step=0, time=0.0, speed=0.0, energy=0.0
+        )
+        self._bar.start()
+
+    def after_step(self, simulation):
+        """Show the state if it is time to."""
+        if len(simulation.messages) > self._messages:
+            self._news(simulation)
+        now = perf_counter()
+        if self._first_step is None:
+            self._first_step = now  # what follows is free of compilation
+            self._steps = simulation.steps
+        if now - self._shown < (REFRESH if self.live else LINE):
+            return
+        self._shown = now
+        self._show(simulation, self._speed(simulation, now))
+
+    def _speed(self, simulation, now):
+        done = (simulation.steps - self._steps) * simulation.solver.count
+        return done / max(now - self._first_step, 1e-9) / 1e6
+
+    def _show(self, simulation, speed):
+        share = min(simulation.time / simulation.case.time, 1.0)
+        if self._bar is not None:
+            self._bar.update(
+                self._task,
+                completed=simulation.time,
+                step=simulation.steps,
+                time=simulation.time,
+                speed=speed,
+                energy=simulation.kinetic_energy(),
+            )
+            return
+        left = (perf_counter() - self._start) * (1 - share) / max(share, 1e-9)
+        self._print(
+            f"step {simulation.steps}, t = {simulation.time:.4g} s, {100 * share:.0f}%, "
+            f"{left:.0f} s left, {speed:.2f} M particle-steps/s, "
+            f"Ekin {simulation.kinetic_energy():.3e} J"
+        )
+
+    def _news(self, simulation):
+        for message in simulation.messages[self._messages :]:
+            self._print(f"note: {message}")
+        self._messages = len(simulation.messages)
+
+    def _print(self, line):
+        if self._bar is not None and self._bar.live.is_started:
+            self._bar.console.print(line, highlight=False)
+            return
+        print(line, file=self.stream, flush=True)
+
+    def end(self, simulation, error):
+        """Close the bar and show where the time went."""
+        now = perf_counter()
+        if self._bar is not None:
+            self._show(simulation, self._speed(simulation, now) if self._first_step else 0.0)
+            self._bar.stop()
+        self._news(simulation)
+        if error is None:
+            self._table(simulation, now)
+
+    def _table(self, simulation, now):
+        from rich.console import Console
+        from rich.table import Table
+
+        table = Table(title=simulation.case.title or None, show_edge=False, header_style="")
+        table.add_column("stage")
+        table.add_column("s", justify="right")
+        table.add_column("ns/particle/step", justify="right")
+        work = max(simulation.steps * simulation.solver.count, 1)
+        for stage, seconds in simulation.solver.clock.seconds.items():
+            table.add_row(stage, f"{seconds:.2f}", f"{seconds / work * 1e9:.1f}")
+        console = Console(file=self.stream, highlight=False)
+        console.print(table)
+        self._print(
+            f"{simulation.steps} steps, {simulation.solver.count} particles, "
+            f"{now - self._start:.2f} s, {self._speed(simulation, now):.2f} M particle-steps/s, "
+            f"compilation {self.compilation.seconds:.1f} s, "
+            f"peak memory {peak_memory() / 2**20:.0f} MiB, {simulation.threads} thread(s)"
+        )
+
+
+def peak_memory():
+    """Return the largest memory that this process has had [bytes]."""
+    if sys.platform == "win32":
+        import ctypes
+        from ctypes import wintypes
+
+        size = ctypes.sizeof(ctypes.c_size_t)
+        counters = (ctypes.c_char * (2 * 4 + 8 * size))()
+        process = wintypes.HANDLE(-1)
+        ctypes.windll.psapi.GetProcessMemoryInfo(process, counters, len(counters))
+        return int.from_bytes(counters[8 : 8 + size], "little")
+    import resource
+
+    unit = 1 if sys.platform == "darwin" else 1024
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit

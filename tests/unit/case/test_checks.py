@@ -1,0 +1,89 @@
+"""Contradictions between keys that are each fine by themselves."""
+
+import pytest
+
+from mpmgeo.case.load import CaseError, load_case
+
+
+def problems(case):
+    with pytest.raises(CaseError) as caught:
+        load_case(case)
+    return caught.value.problems
+
+
+def test_bodies_need_a_defined_material(case):
+    case["materials"]["rock"] = case["materials"]["soil"] | {"id": 4}
+    case["body"]["block"]["material_id"] = 2
+    assert problems(case) == ["body.block.material_id: 2 is no id of a material; defined: 1, 4"]
+
+
+def test_a_broken_material_id_raises_no_second_complaint(case):
+    case["materials"]["soil"]["id"] = 1.5
+    (problem,) = problems(case)
+    assert problem.startswith("materials.soil.id: 1.5")
+
+
+def test_a_body_must_be_active(case):
+    case["body"]["block"]["active"] = False
+    assert problems(case) == ["body: no body is active"]
+
+
+def test_bodies_must_not_need_more_particles_than_fit(case):
+    case["body"]["block"]["point_p2"] = [1e6, 1e6, 1e6]
+    (problem,) = problems(case)
+    assert problem.startswith("body.block: the body needs about 6.4e+19 particle positions")
+
+
+def test_inactive_bodies_may_be_large(case):
+    case["body"]["idle"] = case["body"]["block"] | {"active": False, "point_p2": [1e9, 1e9, 1e9]}
+    assert len(load_case(case).body) == 2
+
+
+@pytest.mark.parametrize("position", [[0, 0, 0], [2, 2, 2], [2.0000000001, 1, 1]])
+def test_point_loads_may_lie_on_the_boundary(case, position):
+    case["nodal_point_load"] = [[position, [0, 0, 1]]]
+    assert load_case(case).nodal_point_load
+
+
+@pytest.mark.parametrize(
+    ("load", "where"),
+    [
+        ([[3, 1, 1], [0, 0, 1]], "nodal_point_load.p[0]: [3.0, 1.0, 1.0] is outside the mesh"),
+        ({"position": [1, 1, -0.1], "force": [0, 0, 1]}, "nodal_point_load.p.position: "),
+    ],
+)
+def test_point_loads_must_lie_in_the_mesh(case, load, where):
+    case["nodal_point_load"] = {"p": load}
+    (problem,) = problems(case)
+    assert problem.startswith(where)
+
+
+@pytest.mark.parametrize(
+    ("keys", "where"),
+    [
+        ({"time": 1, "time_step": 1e-300}, "time_step: 1e+300 steps of 1e-300 s"),
+        ({"time": 1e60, "time_step": 1e-3}, "time_step: "),
+        ({"time": 1e60, "time_step": 0}, "time: "),
+    ],
+)
+def test_runs_must_come_to_an_end(case, keys, where):
+    (problem,) = problems(case | keys)
+    assert problem.startswith(where)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", "no line with time and three accelerations"),
+        ("t,x,y,z\n0,0,0\n", "line 2: needs time and three accelerations"),
+        ("t,x,y,z\n0,0,0,0\n0,1,1,1\n", "line 3: time 0 s does not exceed"),
+        ("t,x,y,z\n0,0,zero,0\n", "line 2: 'zero' is not a number"),
+    ],
+)
+def test_records_are_read_before_the_run(case, tmp_path, text, message):
+    file = tmp_path / "record.csv"
+    file.write_text(text)
+    case["earthquake"] = {"active": True, "file": str(file)}
+    (problem,) = problems(case)
+    assert problem.startswith("earthquake.file: ")
+    assert message in problem

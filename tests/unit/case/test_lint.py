@@ -1,0 +1,117 @@
+"""Warnings about simulations that are possible, but hardly meant."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from mpmgeo.case.lint import lint, significant_frequency
+from mpmgeo.case.load import load_case
+from mpmgeo.loads import Record
+
+
+def simulation_of(case, time_step=1e-3, critical_time_step=1e-2):
+    """Return what lint looks at of a simulation: times, positions and bodies."""
+    loaded = load_case(case)
+    cell = np.array(loaded.mesh.cells_dimension)
+    clouds = [body.generate(cell).position for body in loaded.body if body.active]
+    fields = {
+        "position": np.concatenate(clouds),
+        "body": np.repeat(np.arange(1, len(clouds) + 1, dtype=np.uint32), list(map(len, clouds))),
+    }
+    return SimpleNamespace(
+        case=loaded,
+        time_step=time_step,
+        critical_time_step=critical_time_step,
+        field=fields.__getitem__,
+    )
+
+
+def test_nothing_to_say_about_a_sound_case(case):
+    assert lint(simulation_of(case)) == []
+
+
+def test_unstable_time_step(case):
+    (warning,) = lint(simulation_of(case, time_step=0.02))
+    assert warning == "time_step: 0.02 s exceeds the critical 0.01 s; the run may diverge"
+
+
+def test_particles_outside_the_mesh(case):
+    case["body"]["block"] |= {"point_p1": [1.5, 0, 0], "point_p2": [2.5, 1, 1]}
+    (warning,) = lint(simulation_of(case))
+    assert warning.startswith("32 of 64 particles start outside the mesh")
+    assert "row 32 at (2.125, 0.125, 0.125) m" in warning
+
+
+def test_body_without_particles(case):
+    case["body"]["small"] = {
+        "type": "polygon_2d",
+        "points": [[0, 0, 0], [0.01, 0, 0], [0, 0, 0.01]],
+        "extrude_direction": "y",
+        "extrude_displacement": 1,
+        "material_id": 1,
+    }
+    assert lint(simulation_of(case)) == ["body 2 (polygon_2d) holds no particle"]
+
+
+def test_loads_that_meet_no_particle(case):
+    case["load_distributed_box"] = [
+        {"point_p1": [1.5, 1.5, 1.5], "point_p2": [2, 2, 2], "load": [0, 0, 1]},
+        {"point_p1": [0, 0, 0], "point_p2": [2, 2, 2], "load": [0, 0, 1]},
+    ]
+    case["nodal_point_load"] = [[[2, 2, 2], [0, 0, 1]], [[1, 1, 1], [0, 0, 1]]]
+    box, point = lint(simulation_of(case))
+    assert box.startswith("load_distributed_box, entry 1: no particle in the box")
+    assert point.startswith("nodal_point_load, entry 1: no particle near [2.0, 2.0, 2.0]")
+
+
+@pytest.fixture
+def shaken(case, tmp_path):
+    """Make a case with a sine of the given frequency [Hz], interval and duration [s] as base."""
+
+    def shake(frequency, interval=1e-3, duration=1.0):
+        time = np.arange(0, duration + interval / 2, interval)
+        record = np.c_[time, np.sin(2 * np.pi * frequency * time), 0 * time, 0 * time]
+        np.savetxt(tmp_path / "record.csv", record, delimiter=",", header="t,x,y,z", comments="")
+        case["earthquake"] = {"active": True, "file": str(tmp_path / "record.csv")}
+        return case
+
+    return shake
+
+
+def test_sound_record(shaken):
+    assert lint(simulation_of(shaken(1))) == []
+
+
+def test_record_that_ends_early(shaken):
+    (warning,) = lint(simulation_of(shaken(20, duration=0.05) | {"mesh": fine_mesh()}))
+    assert warning == "earthquake: the record ends at 0.05 s, the run at 0.1 s"
+
+
+def fine_mesh():
+    return {"cells_number": [20, 20, 20], "cells_dimension": [0.05, 0.05, 0.05]}
+
+
+def test_steps_that_skip_records(shaken):
+    (warning,) = lint(simulation_of(shaken(1), time_step=2e-3))
+    assert "a value every 0.001 s, of which time steps of 0.002 s skip some" in warning
+
+
+def test_waves_too_short_for_the_cells(shaken):
+    (warning,) = lint(simulation_of(shaken(20)))
+    assert "shakes with up to 20 Hz" in warning
+    assert "need cells of 0.0693 m or less" in warning
+
+
+@pytest.mark.parametrize("frequency", [1.0, 3.5, 40.0])
+def test_significant_frequency_of_a_sine(frequency):
+    time = np.linspace(0, 10, 2001)
+    wave = np.sin(2 * np.pi * frequency * time)
+    record = Record(time, np.c_[wave, 0 * wave, 0 * wave])
+    assert abs(significant_frequency(record) - frequency) < 0.5
+
+
+@pytest.mark.parametrize("count", [1, 2, 50])
+def test_significant_frequency_of_rest(count):
+    record = Record(np.arange(count, dtype=float), np.zeros((count, 3)))
+    assert significant_frequency(record) == 0
