@@ -70,7 +70,7 @@ def run(case, arguments) -> int:
             if quiet:
                 _say_all("warning", simulation.messages[shown:])
     if simulation.interrupted:
-        _say("note", f"interrupted after step {simulation.steps}; results are in {output.resolve()}")
+        _say("note", f"interrupted after step {simulation.steps}, results in {output.resolve()}")
         return INTERRUPTED
     if not quiet:
         _say("note", f"results are in {output.resolve()}")

@@ -5,8 +5,6 @@
 
 from typing import NamedTuple
 
-import numpy as np
-
 from mpmgeo.boundaries.planes import BASE, FIXED, SLIDING, Planes
 
 
@@ -21,14 +19,15 @@ class Motion(NamedTuple):
     acceleration: tuple
     drives: bool
 
-    @classmethod
-    def of(cls, before, after, acceleration, drives=True):
-        """Return the motion with its vectors as triples."""
-        vectors = [tuple(float(c) for c in u) for u in (before, after, acceleration)]
-        return cls(*vectors, drives)
 
 
-STILL = Motion.of(np.zeros(3), np.zeros(3), np.zeros(3))
+ZERO = (0.0, 0.0, 0.0)
+STILL = Motion(ZERO, ZERO, ZERO, True)
+
+
+def _changed(velocity, acceleration, h):
+    """Return v + a h."""
+    return tuple(v + a * h for v, a in zip(velocity, acceleration, strict=True))
 
 
 class BaseMotion:
@@ -36,7 +35,7 @@ class BaseMotion:
 
     def __init__(self, record):
         self.record = record
-        self.velocity = np.zeros(3)
+        self.velocity = ZERO
         self.ended = False
 
     def planes(self, planes: Planes) -> Planes:
@@ -48,11 +47,11 @@ class BaseMotion:
         acceleration = self.record.at(t)
         self.ended = acceleration is None
         if self.ended:
-            self.velocity = np.zeros(3)
+            self.velocity = ZERO
             return STILL
         before = self.velocity
-        self.velocity = before + acceleration * h
-        return Motion.of(before, self.velocity, acceleration)
+        self.velocity = _changed(before, acceleration, h)
+        return Motion(before, self.velocity, acceleration, True)
 
     def planes_after(self, planes: Planes) -> Planes:
         """Return the planes when the record has ended: the base is held, the others stay."""
@@ -81,9 +80,9 @@ class BaseMotionAsMPMGeomechanics(BaseMotion):
         self.ended = t >= times[-1]
         if self.ended:
             return STILL
-        acceleration = self.record.at(t) if t > times[0] else np.zeros(3)
-        self.velocity = self.velocity + acceleration * h
-        return Motion.of(self.velocity, self.velocity, acceleration, drives=self.remaps)
+        acceleration = self.record.at(t) if t > times[0] else ZERO
+        self.velocity = _changed(self.velocity, acceleration, h)
+        return Motion(self.velocity, self.velocity, acceleration, self.remaps)
 
     def planes_after(self, planes: Planes) -> Planes:
         """Return planes that are all fixed."""

@@ -29,17 +29,22 @@ def check(tree, parts, report):
 def _check_materials(tree, report):
     defined = {}
     for path, law in places(tree, ("materials", "*")):
-        if "id" not in law or report.is_broken((*path, "id")):
+        number = law.get("id")
+        if not _is_number(number) or (*path, "id") in report.errors:
             return
-        if law["id"] in defined:
-            first = report.where(defined[law["id"]])
-            report.warn((*path, "id"), f"{shown(law['id'])} is taken by {first}, which counts")
-        defined.setdefault(law["id"], path)
+        if number in defined:
+            first = report.where(defined[number])
+            report.warn((*path, "id"), f"{shown(number)} is taken by {first}, which counts")
+        defined.setdefault(number, path)
     for path, body in places(tree, ("body", "*")):
         here, wanted = (*path, "material_id"), body.get("material_id")
-        if defined and wanted is not None and not report.is_broken(here) and wanted not in defined:
+        if defined and _is_number(wanted) and wanted not in defined:
             known = ", ".join(map(shown, sorted(defined)))
             report.error(here, f"{shown(wanted)} is no id of a material; defined: {known}")
+
+
+def _is_number(value):
+    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def _check_bodies(tree, parts, report):

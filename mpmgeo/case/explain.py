@@ -13,6 +13,9 @@ LIMITS = {
     "exclusiveMaximum": "below",
     "maximum": "at most",
 }
+MOST_HINTS = 100
+"""Unknown keys of one object that are compared with the known ones, which takes its time."""
+
 NOUNS = {
     "number": ("a number", "numbers"),
     "integer": ("a whole number", "whole numbers"),
@@ -108,10 +111,9 @@ def _missing(error, path, schema, report):
 def _unknown(error, path, schema, report):
     known = error.schema["properties"]
     current = [key for key in known if not known[key].get("deprecated")]
-    for key in error.instance:
-        if key in known:
-            continue
-        near = OBSOLETE.get((place_of(path), key)) or nearest(key, current)
+    place = place_of(path)
+    for number, key in enumerate(key for key in error.instance if key not in known):
+        near = OBSOLETE.get((place, key)) or (number < MOST_HINTS and nearest(key, current))
         hint = f'; did you mean "{near}"?' if near else _home(key, schema)
         report.warn((*path, key), f"unknown key, ignored{hint}")
 

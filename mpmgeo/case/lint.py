@@ -10,6 +10,9 @@ CELLS_PER_WAVELENGTH = 10
 SIGNIFICANT = 0.99
 """Share of a record's power that lies below its highest significant frequency."""
 
+VALUES_PER_PERIOD = 4
+"""Values of a record, and time steps, that a wave needs not to be lost between them."""
+
 REACH = 1.5
 """Cells between a particle and the nodes that it still carries mass to."""
 
@@ -70,21 +73,20 @@ def _record(case, time_step) -> Iterator[str]:
     if case.earthquake is None or not case.earthquake.active:
         return
     record = case.earthquake.record()
-    end, interval = record.time[-1], np.diff(record.time).min(initial=np.inf)
+    end, frequency = record.time[-1], significant_frequency(record)
     if end < case.time:
         yield f"earthquake: the record ends at {end:g} s, the run at {case.time:g} s"
-    if time_step > interval:
+    if frequency == 0:
+        return
+    shakes, period = f"earthquake: the record shakes with up to {frequency:.3g} Hz", 1 / frequency
+    for step, what in (np.diff(record.time).max(), "values"), (time_step, "time steps"):
+        if step * VALUES_PER_PERIOD > period:
+            yield f"{shakes}, too fast for {what} {step:.4g} s apart"
+    speed, largest = _slowest_wave(case), max(case.mesh.cells_dimension)
+    if largest * CELLS_PER_WAVELENGTH > speed * period:
         yield (
-            f"earthquake: the record has a value every {interval:.4g} s, of which "
-            f"time steps of {time_step:.4g} s skip some"
-        )
-    frequency, speed = significant_frequency(record), _slowest_wave(case)
-    largest = max(case.mesh.cells_dimension)
-    if frequency * largest * CELLS_PER_WAVELENGTH > speed:
-        yield (
-            f"earthquake: the record shakes with up to {frequency:.3g} Hz; waves of that frequency "
-            f"are {speed / frequency:.3g} m long and need cells of "
-            f"{speed / frequency / CELLS_PER_WAVELENGTH:.3g} m or less"
+            f"{shakes}; waves of that frequency are {speed * period:.3g} m long "
+            f"and need cells of {speed * period / CELLS_PER_WAVELENGTH:.3g} m or less"
         )
 
 

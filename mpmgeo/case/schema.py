@@ -127,7 +127,7 @@ def _value(kind, metadata, place, definitions):
     if kind.name == "list":
         entry = _value(kind.item, metadata, place, definitions)
         types = ["array", "string"] if kind.item.name == "text" else "array"
-        return {"type": types, "items": entry, "minItems": 1}
+        return {"type": types, "items": entry}
     return _scalar(kind, metadata)
 
 

@@ -1,6 +1,8 @@
 """A record of accelerations: read from a text file, interpolated in time."""
 
+from bisect import bisect_right
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -17,18 +19,24 @@ class Record:
     acceleration: np.ndarray
     warnings: tuple[str, ...] = ()
 
-    def at(self, t: float) -> np.ndarray | None:
-        """Return the acceleration (3,) [m/s²] at time t [s]: 0 before, None after the record."""
-        if t < self.time[0]:
-            return np.zeros(3)
-        if t > self.time[-1]:
+    @cached_property
+    def _rows(self):
+        # plain numbers: a run asks for one instant a step, where arrays cost more than they save
+        return self.time.tolist(), [tuple(row) for row in self.acceleration.tolist()]
+
+    def at(self, t: float) -> tuple[float, float, float] | None:
+        """Return the acceleration [m/s²] at time t [s]: 0 before the record, None after it."""
+        time, rows = self._rows
+        if t < time[0]:
+            return (0.0, 0.0, 0.0)
+        if t > time[-1]:
             return None
-        after = int(self.time.searchsorted(t, side="right"))
+        after = bisect_right(time, t)
+        if after == len(time):
+            return rows[-1]
         before = after - 1
-        if after == len(self.time):
-            return self.acceleration[before]
-        share = (t - self.time[before]) / (self.time[after] - self.time[before])
-        return (1 - share) * self.acceleration[before] + share * self.acceleration[after]
+        share = (t - time[before]) / (time[after] - time[before])
+        return tuple((1 - share) * a + share * b for a, b in zip(*rows[before : after + 1], strict=True))
 
 
 def read_record(path: Path | str, header: bool = True) -> Record:

@@ -110,13 +110,17 @@ def deposit_value(tiles, n0, row, wx, wy, wz, C0):
 def copy_tile(nodes, above, b, row, tile):
     """Copy the node records under tile b out of the blocks that hold them."""
     reach = (row + SIDE - 1) // SIDE
-    for i in range(row):
-        for j in range(row):
-            column = (i // SIDE * reach + j // SIDE) * reach
-            inner = (i % SIDE * SIDE + j % SIDE) * SIDE
-            for k in range(row):
-                source = above[b, column + k // SIDE] * SIDE**3 + inner + k % SIDE
-                store(tile, ((i * row + j) * row + k) * LANES, load(nodes, source * LANES))
+    for di in range(reach):
+        for dj in range(reach):
+            for dk in range(reach):
+                block = above[b, (di * reach + dj) * reach + dk] * SIDE**3
+                i0, j0, k0 = SIDE * di, SIDE * dj, SIDE * dk
+                for i in range(min(SIDE, row - i0)):
+                    for j in range(min(SIDE, row - j0)):
+                        source = (block + (i * SIDE + j) * SIDE) * LANES
+                        at = (((i + i0) * row + j + j0) * row + k0) * LANES
+                        for k in range(min(SIDE, row - k0)):
+                            store(tile, at + k * LANES, load(nodes, source + k * LANES))
 
 
 @inlined

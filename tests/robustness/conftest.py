@@ -1,22 +1,21 @@
+import json
+from pathlib import Path
+
 import pytest
+
+SOUND = Path(__file__).with_name("sound.json")
+RECORD = "t,ax,ay,az\n" + "".join(f"{n / 100},{n % 7 / 10},0,0\n" for n in range(101))
 
 
 @pytest.fixture
 def case():
-    """A small valid case in canonical spelling, new for every test."""
-    return {
-        "time": 0.1,
-        "time_step": 1e-3,
-        "mesh": {"cells_number": [4, 4, 4], "cells_dimension": [0.5, 0.5, 0.5]},
-        "materials": {
-            "soil": {"type": "elastic", "id": 1, "density": 2000, "young": 1e6, "poisson": 0.3}
-        },
-        "body": {
-            "block": {
-                "type": "cuboid",
-                "point_p1": [0, 0, 0],
-                "point_p2": [1, 1, 1],
-                "material_id": 1,
-            }
-        },
-    }
+    """A valid case that uses nearly everything, new for every test."""
+    return json.loads(SOUND.read_text())
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """The working directory, which holds the record that the case names."""
+    (tmp_path / "record.csv").write_text(RECORD)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path

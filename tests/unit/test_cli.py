@@ -5,12 +5,13 @@ import os
 import signal
 import subprocess
 import sys
-from types import ModuleType, SimpleNamespace
+from types import ModuleType
 
 import numpy as np
 import pytest
 
 from mpmgeo import cli
+from mpmgeo.run.watch import Diverged
 
 
 @pytest.fixture
@@ -32,10 +33,6 @@ def case_file(tmp_path, monkeypatch):
     return file
 
 
-class Diverged(Exception):
-    """Stands for the exception of a run that diverged."""
-
-
 @pytest.fixture
 def simulations(monkeypatch):
     """Put a stand-in for the simulation in place and return the list of those that were made."""
@@ -44,6 +41,7 @@ def simulations(monkeypatch):
     class Simulation:
         ends_with = None
         interrupted = False
+        steps = 1
 
         def __init__(self, case, output=None, threads=None):
             self.case, self.output, self.threads = case, output, threads
@@ -60,14 +58,9 @@ def simulations(monkeypatch):
             if self.ends_with:
                 raise self.ends_with
 
-    for name, members in {
-        "mpmgeo.run.simulation": {"Simulation": Simulation},
-        "mpmgeo.run.watch": {"Diverged": Diverged},
-        "mpmgeo.run.progress": {"Progress": lambda **_: SimpleNamespace()},
-    }.items():
-        module = ModuleType(name)
-        vars(module).update(members)
-        monkeypatch.setitem(sys.modules, name, module)
+    module = ModuleType("mpmgeo.simulation")
+    module.Simulation = Simulation
+    monkeypatch.setitem(sys.modules, module.__name__, module)
     made.append(Simulation)
     return made
 

@@ -87,7 +87,9 @@ def test_paths_name_the_users_spelling(case):
 def test_obsolete_keys_are_ignored_with_advice(case, place, key):
     put(case, place, key, 1)
     (warning,) = load_case(case).warnings
-    assert warning == f'{shown_key(key)}: unknown key, ignored; did you mean "{OBSOLETE[place, key]}"?'
+    assert (
+        warning == f'{shown_key(key)}: unknown key, ignored; did you mean "{OBSOLETE[place, key]}"?'
+    )
 
 
 @pytest.mark.parametrize("key", ["time_step", "n_threads"])

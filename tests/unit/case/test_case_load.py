@@ -161,6 +161,7 @@ def test_a_dropped_line_of_numbers_is_warned_of(case, folders):
         (["none", "all", "stress"], 0, True),
         (["stress", "id"], 2, False),
         ("none", 0, True),
+        ([], 0, False),
     ],
 )
 def test_particle_fields(case, given, fields, once):

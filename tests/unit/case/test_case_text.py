@@ -44,7 +44,7 @@ def test_messages_name_the_flaw(text, message):
 
 
 def test_message_shows_the_line():
-    with pytest.raises(CaseError, match='line 2, column 8.*"time" 1') as caught:
+    with pytest.raises(CaseError, match=r'line 2, column 8.*"time" 1') as caught:
         parse('{\n"time" 1}')
     assert len(str(caught.value).splitlines()) == 1
 
@@ -115,7 +115,7 @@ def test_a_dict_that_holds_itself_is_refused():
 
 def test_missing_file_names_a_similar_one(tmp_path):
     (tmp_path / "slope.json").write_text("{}")
-    with pytest.raises(CaseError, match="there is no file .*did you mean .*slope.json"):
+    with pytest.raises(CaseError, match=r"there is no file .*did you mean .*slope.json"):
         read(tmp_path / "slop.json")
 
 

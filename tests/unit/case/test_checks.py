@@ -23,6 +23,16 @@ def test_a_broken_material_id_raises_no_second_complaint(case):
     assert problem.startswith("materials.soil.id: 1.5")
 
 
+@pytest.mark.parametrize("value", [[], {}, "1", True])
+def test_ids_of_any_type_are_looked_at(case, value):
+    del case["materials"]["soil"]["type"], case["body"]["block"]["type"]
+    case["materials"]["soil"]["id"] = case["body"]["block"]["material_id"] = value
+    assert [problem.split(":")[0] for problem in problems(case)] == [
+        "materials.soil.type",
+        "body.block.type",
+    ]
+
+
 def test_a_body_must_be_active(case):
     case["body"]["block"]["active"] = False
     assert problems(case) == ["body: no body is active"]

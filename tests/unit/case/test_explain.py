@@ -83,7 +83,11 @@ def test_errors_of_all_parts_come_together(case):
     case["body"]["empty"] = case["body"]["block"] | {"point_p2": [0, 0, 0], "material_id": 1}
     case["nodal_point_load"] = [[[9, 9, 9], [0, 0, 1]]]
     found = problems(case)
-    for start in ("time: -1", "materials.soil.young", "body.empty.point_p2: x is 0 and must exceed that of point_p1, 0; y"):
+    for start in (
+        "time: -1",
+        "materials.soil.young",
+        "body.empty.point_p2: x is 0 and must exceed that of point_p1, 0; y",
+    ):
         assert any(problem.startswith(start) for problem in found)
     for start in ("body.block.material_id: 7", "nodal_point_load[0][0]: [9.0, 9.0, 9.0]"):
         assert any(problem.startswith(start) for problem in found)

@@ -92,15 +92,22 @@ def fine_mesh():
     return {"cells_number": [20, 20, 20], "cells_dimension": [0.05, 0.05, 0.05]}
 
 
-def test_steps_that_skip_records(shaken):
-    (warning,) = lint(simulation_of(shaken(1), time_step=2e-3))
-    assert "a value every 0.001 s, of which time steps of 0.002 s skip some" in warning
+def test_records_too_coarse_for_their_content(shaken):
+    (warning,) = lint(simulation_of(shaken(2, interval=0.2)))
+    assert warning == (
+        "earthquake: the record shakes with up to 2.5 Hz, too fast for values 0.2 s apart"
+    )
+
+
+def test_steps_that_skip_what_the_record_holds(shaken):
+    (warning,) = lint(simulation_of(shaken(2), time_step=0.2, critical_time_step=1))
+    assert warning.endswith("with up to 2 Hz, too fast for time steps 0.2 s apart")
 
 
 def test_waves_too_short_for_the_cells(shaken):
     (warning,) = lint(simulation_of(shaken(20)))
     assert "shakes with up to 20 Hz" in warning
-    assert "need cells of 0.0693 m or less" in warning
+    assert "need cells of 0.0694 m or less" in warning
 
 
 @pytest.mark.parametrize("frequency", [1.0, 3.5, 40.0])

@@ -118,9 +118,9 @@ def test_any_bytes_give_a_record_or_a_clear_error(tmp_path_factory, content, hea
 
 def test_interpolation():
     record = Record(TABLE[:, 0], TABLE[:, 1:])
-    assert record.at(-1e-12).tolist() == [0, 0, 0]
+    assert record.at(-1e-12) == (0, 0, 0)
     for row in TABLE:
-        assert record.at(row[0]).tolist() == row[1:].tolist()
+        assert record.at(row[0]) == tuple(row[1:])
     np.testing.assert_allclose(record.at(0.05), [1.5, -1.0, 0.2495], rtol=1e-14)
     np.testing.assert_allclose(record.at(0.2), [-5 / 3, 8 / 3, 2 / 3 * 9.81 - 1e-3 / 3], rtol=1e-14)
     assert record.at(np.nextafter(0.25, 1)) is None
@@ -137,8 +137,8 @@ def test_interpolation_agrees_with_numpy():
 
 def test_a_record_may_start_late_and_have_one_line():
     record = Record(np.array([2.0]), np.array([[1.0, 2.0, 3.0]]))
-    assert record.at(1.9).tolist() == [0, 0, 0]
-    assert record.at(2.0).tolist() == [1, 2, 3]
+    assert record.at(1.9) == (0, 0, 0)
+    assert record.at(2.0) == (1, 2, 3)
     assert record.at(2.1) is None
 
 
