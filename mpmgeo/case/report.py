@@ -49,10 +49,6 @@ class Report:
             text += f"[{key}]" if isinstance(key, int) else f".{shown_key(key)}"
         return text.removeprefix(".")
 
-    def is_broken(self, path):
-        """Return whether an error stands at a path or below it."""
-        return any(found[: len(path)] == path for found in self.errors)
-
     def raise_errors(self, strict=False):
         """Raise CaseError if there are errors; `strict` counts warnings as errors."""
         problems = list(self.errors.values())

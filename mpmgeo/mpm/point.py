@@ -5,19 +5,24 @@ from numba.np.unsafe.ndarray import to_fixed_tuple
 
 from mpmgeo.materials.law import update_stress
 from mpmgeo.numerics.jit import inlined
-from mpmgeo.numerics.simd import lane, pack
+from mpmgeo.numerics.simd import lane, load_column, load_row, scale, with_velocity
+
+
+@inlined
+def momentum_and_weight(m, v, weight, p):
+    """Return mass, momentum and weight of particle p as a record; `weight` has 1, g in its lanes."""
+    return scale(m[p], with_velocity(weight, load_row(v, p)))
 
 
 @inlined
 def internal_force(mesh, V, stress, p):
     """Return −V σ by columns, in the force lanes of three records, for slopes per cell."""
-    qx, qy, qz = -V[p] * mesh.ix, -V[p] * mesh.iy, -V[p] * mesh.iz
-    xx, yy, zz = stress[p, 0], stress[p, 1], stress[p, 2]
-    xy, yz, xz = stress[p, 3], stress[p, 4], stress[p, 5]
-    C1 = pack(0.0, 0.0, 0.0, 0.0, qx * xx, qx * xy, qx * xz, 0.0)
-    C2 = pack(0.0, 0.0, 0.0, 0.0, qy * xy, qy * yy, qy * yz, 0.0)
-    C3 = pack(0.0, 0.0, 0.0, 0.0, qz * xz, qz * yz, qz * zz, 0.0)
-    return C1, C2, C3
+    q = -V[p]
+    return (
+        scale(q * mesh.ix, load_column(stress, p, 0)),
+        scale(q * mesh.iy, load_column(stress, p, 1)),
+        scale(q * mesh.iz, load_column(stress, p, 2)),
+    )
 
 
 @inlined

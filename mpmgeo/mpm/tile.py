@@ -3,7 +3,20 @@
 from numba.extending import overload
 
 from mpmgeo.numerics.jit import inlined
-from mpmgeo.numerics.simd import LANES, axpy, load, scale, splat, store
+from mpmgeo.numerics.simd import (
+    LANES,
+    along,
+    axpy,
+    lane,
+    load,
+    load_row,
+    pack4,
+    quarter,
+    scale,
+    splat,
+    store,
+    truncate,
+)
 from mpmgeo.shapes.shape import stencil, width
 from mpmgeo.state.grid import SIDE
 
@@ -15,60 +28,53 @@ def half_size(half, p):
 
 @overload(half_size, jit_options={"forceinline": True})
 def _half_size(half, p):
+    # the fourth lane is no axis; it must not divide by zero
     if hasattr(half, "ndim"):
-        return lambda half, p: (half[p, 0], half[p, 1], half[p, 2])
-    return lambda half, p: half
+        return lambda half, p: pack4(half[p, 0], half[p, 1], half[p, 2], 0.5)
+    return lambda half, p: pack4(half[0], half[1], half[2], 0.5)
 
 
 @inlined
-def _first(g, reach):
-    """Return the first node of a particle, g its position in the block in cells.
+def block_origin(mesh, corner, b):
+    """Return the position of the first node of block b."""
+    return pack4(
+        mesh.ox + corner[b, 0] * SIDE * mesh.hx,
+        mesh.oy + corner[b, 1] * SIDE * mesh.hy,
+        mesh.oz + corner[b, 2] * SIDE * mesh.hz,
+        0.0,
+    )
 
-    Sorting puts it in 0…3; the clamp keeps round-off, and NaN, from reaching beyond the tile.
+
+@inlined
+def block_bounds(shape, mesh, corner, b):
+    """Return between which positions in block b, in cells, its particles are and are in the mesh."""
+    reach = 0.5 * (width(shape) - 2)
+    i, j, k = corner[b, 0] * SIDE, corner[b, 1] * SIDE, corner[b, 2] * SIDE
+    low = pack4(max(reach, -1.0 * i), max(reach, -1.0 * j), max(reach, -1.0 * k), 0.0)
+    x, y, z = min(reach + SIDE, 1.0 * (mesh.nx - i)), min(reach + SIDE, 1.0 * (mesh.ny - j)), min(reach + SIDE, 1.0 * (mesh.nz - k))
+    return low, pack4(x, y, z, 0.0)
+
+
+@inlined
+def in_block(mesh, origin, X):
+    """Return a position from the first node of a block at `origin`, in cells."""
+    return (X - origin) * pack4(mesh.ix, mesh.iy, mesh.iz, 0.0)
+
+
+@inlined
+def locate(shape, mesh, origin, half, x, p):
+    """Return where the records of particle p begin in its tile, and its stencils along x, y, z.
+
+    Sorting puts the first node in 0…3; the clamp keeps round-off, and NaN, from reaching beyond the
+    tile.
     """
-    return min(max(int(g - reach), 0), SIDE - 1)
-
-
-@inlined
-def _in_block(mesh, corner, b, x, p):
-    """Return the position of particle p from the first node of block b, in cells."""
-    gx = (x[p, 0] - (mesh.ox + corner[b, 0] * SIDE * mesh.hx)) * mesh.ix
-    gy = (x[p, 1] - (mesh.oy + corner[b, 1] * SIDE * mesh.hy)) * mesh.iy
-    gz = (x[p, 2] - (mesh.oz + corner[b, 2] * SIDE * mesh.hz)) * mesh.iz
-    return gx, gy, gz
-
-
-@inlined
-def locate(shape, mesh, corner, b, half, x, p):
-    """Return where the records of particle p begin in its tile, and its stencils along x, y, z."""
     S = width(shape)
     row = SIDE + S - 1
-    gx, gy, gz = _in_block(mesh, corner, b, x, p)
-    reach, middle = 0.5 * (S - 2), 0.5 * (S - 1)
-    i, j, k = _first(gx, reach), _first(gy, reach), _first(gz, reach)
-    lx, ly, lz = half_size(half, p)
-    wx = stencil(shape, gx - i - middle, lx)
-    wy = stencil(shape, gy - j - middle, ly)
-    wz = stencil(shape, gz - k - middle, lz)
-    return ((i * row + j) * row + k) * LANES, wx, wy, wz
-
-
-@inlined
-def _within(g, reach, corner, cells):
-    low, high = max(reach, -1.0 * corner * SIDE), min(reach + SIDE, 1.0 * (cells - corner * SIDE))
-    return g >= low and g <= high
-
-
-@inlined
-def inside(shape, mesh, corner, b, x, p):
-    """Tell whether particle p is still in the mesh and the first of its nodes still in block b."""
-    reach = 0.5 * (width(shape) - 2)
-    gx, gy, gz = _in_block(mesh, corner, b, x, p)
-    return (
-        _within(gx, reach, corner[b, 0], mesh.nx)
-        and _within(gy, reach, corner[b, 1], mesh.ny)
-        and _within(gz, reach, corner[b, 2], mesh.nz)
-    )
+    g = in_block(mesh, origin, load_row(x, p))
+    first = min(max(truncate(g - 0.5 * (S - 2)), 0.0), SIDE - 1.0)
+    w = stencil(shape, g - first - 0.5 * (S - 1), half_size(half, p))
+    n = (lane(first, 0) * row + lane(first, 1)) * row + lane(first, 2)
+    return int(n) * LANES, along(w, 0), along(w, 1), along(w, 2)
 
 
 @inlined
@@ -125,20 +131,22 @@ def copy_tile(nodes, above, b, row, tile):
 
 @inlined
 def collect(tile, n0, row, wx, wy, wz):
-    """Return Σ S r, Σ ∂S/∂x r, Σ ∂S/∂y r and Σ ∂S/∂z r over the node records r from n0 on."""
+    """Return Σ S r, and Σ ∂S/∂x r, Σ ∂S/∂y r, Σ ∂S/∂z r of the first four lanes of the records r."""
     S = len(wx) // 2
-    value, sx, sy, sz = splat(0.0), splat(0.0), splat(0.0), splat(0.0)
+    value = splat(0.0)
+    sx = sy = sz = pack4(0.0, 0.0, 0.0, 0.0)
     for i in range(S):
-        a, b, c = splat(0.0), splat(0.0), splat(0.0)
+        a = splat(0.0)
+        b = c = pack4(0.0, 0.0, 0.0, 0.0)
         for j in range(S):
             n = n0 + (i * row + j) * row * LANES
             record = load(tile, n)
-            r, q = scale(wz[0], record), scale(wz[S], record)
+            r, q = scale(wz[0], record), scale(wz[S], quarter(record, 0))
             for k in range(1, S):
                 record = load(tile, n + k * LANES)
-                r, q = axpy(wz[k], record, r), axpy(wz[S + k], record, q)
-            a, b, c = axpy(wy[j], r, a), axpy(wy[S + j], r, b), axpy(wy[j], q, c)
-        value, sx = axpy(wx[i], a, value), axpy(wx[S + i], a, sx)
+                r, q = axpy(wz[k], record, r), axpy(wz[S + k], quarter(record, 0), q)
+            a, b, c = axpy(wy[j], r, a), axpy(wy[S + j], quarter(r, 0), b), axpy(wy[j], q, c)
+        value, sx = axpy(wx[i], a, value), axpy(wx[S + i], quarter(a, 0), sx)
         sy, sz = axpy(wx[i], b, sy), axpy(wx[i], c, sz)
     return value, sx, sy, sz
 

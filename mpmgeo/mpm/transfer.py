@@ -12,18 +12,30 @@ Loops run over chunks of blocks; a chunk has a scratch tile of its own.
 
 from numba import prange
 
-from mpmgeo.mpm.point import advance, internal_force, strain_increment
+from mpmgeo.mpm.point import advance, internal_force, momentum_and_weight, strain_increment
 from mpmgeo.mpm.tile import (
+    block_bounds,
+    block_origin,
     collect,
     collect_value,
     copy_tile,
     deposit,
     deposit_value,
-    inside,
+    in_block,
     locate,
 )
 from mpmgeo.numerics.jit import blockwise
-from mpmgeo.numerics.simd import LANES, lane, pack, splat
+from mpmgeo.numerics.simd import (
+    LANES,
+    add,
+    axpy,
+    load_row,
+    pack,
+    quarter,
+    splat,
+    store_row,
+    within,
+)
 from mpmgeo.shapes.shape import width
 from mpmgeo.state.grid import SIDE
 
@@ -39,16 +51,17 @@ def scatter(
     row = SIDE + width(shape) - 1
     size = row * row * row * LANES
     for c in prange(len(chunk) - 1):
+        weight = pack(1.0, 0.0, 0.0, 0.0, gravity[0], gravity[1], gravity[2], 0.0)
         for b in range(chunk[c], chunk[c + 1]):
             if first:
                 tiles[b * size : (b + 1) * size] = 0.0
+            origin = block_origin(mesh, corner, b)
             for p in range(start[b], start[b + 1]):
-                n, wx, wy, wz = locate(shape, mesh, corner, b, half, x, p)
-                M = m[p]
-                fx, fy, fz = M * gravity[0], M * gravity[1], M * gravity[2]
+                n, wx, wy, wz = locate(shape, mesh, origin, half, x, p)
+                C0 = momentum_and_weight(m, v, weight, p)
                 if force is not None:
-                    fx, fy, fz = fx + force[p, 0], fy + force[p, 1], fz + force[p, 2]
-                C0 = pack(M, M * v[p, 0], M * v[p, 1], M * v[p, 2], fx, fy, fz, 0.0)
+                    f = pack(0.0, 0.0, 0.0, 0.0, force[p, 0], force[p, 1], force[p, 2], 0.0)
+                    C0 = add(C0, f)
                 if stress is None:
                     deposit_value(tiles, b * size + n, row, wx, wy, wz, C0)
                 else:
@@ -74,17 +87,18 @@ def gather(
             if start[b] == start[b + 1]:
                 continue
             copy_tile(nodes, above, b, row, tile)
+            origin = block_origin(mesh, corner, b)
+            low, high = block_bounds(shape, mesh, corner, b)
             for p in range(start[b], start[b + 1]):
-                n, wx, wy, wz = locate(shape, mesh, corner, b, half, x, p)
+                n, wx, wy, wz = locate(shape, mesh, origin, half, x, p)
                 value, sx, sy, sz = collect(tile, n, row, wx, wy, wz)
                 if v is not None:
-                    for a in range(3):
-                        x[p, a] += lane(value, a) * dt
-                        v[p, a] += lane(value, a + 3) * h
+                    X = axpy(dt, quarter(value, 0), load_row(x, p))
+                    store_row(v, p, axpy(h, quarter(value, 3), load_row(v, p)))
                 else:
-                    for a in range(3):
-                        x[p, a] += lane(value, a + 3) * dt
-                if not inside(shape, mesh, corner, b, x, p):
+                    X = axpy(dt, quarter(value, 3), load_row(x, p))
+                store_row(x, p, X)
+                if not within(in_block(mesh, origin, X), low, high):
                     gone += 1
                 if law is not None:
                     strain = strain_increment(mesh, sx, sy, sz, dt)
@@ -99,19 +113,19 @@ def remap(shape, mesh, first, chunk, start, corner, above, nodes, scratch, half,
     size = row * row * row * LANES
     for c in prange(len(chunk) - 1):
         tile = scratch[c * size : (c + 1) * size]
+        momentum = pack(1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
         for b in range(chunk[c], chunk[c + 1]):
             if first:
                 tiles[b * size : (b + 1) * size] = 0.0
             if start[b] == start[b + 1]:
                 continue
             copy_tile(nodes, above, b, row, tile)
+            origin = block_origin(mesh, corner, b)
             for p in range(start[b], start[b + 1]):
-                n, wx, wy, wz = locate(shape, mesh, corner, b, half, x, p)
+                n, wx, wy, wz = locate(shape, mesh, origin, half, x, p)
                 value = collect_value(tile, n, row, wx, wy, wz)
-                for a in range(3):
-                    v[p, a] += lane(value, a + 3) * h
-                M = m[p]
-                C0 = pack(M, M * v[p, 0], M * v[p, 1], M * v[p, 2], 0.0, 0.0, 0.0, 0.0)
+                store_row(v, p, axpy(h, quarter(value, 3), load_row(v, p)))
+                C0 = momentum_and_weight(m, v, momentum, p)
                 deposit_value(tiles, b * size + n, row, wx, wy, wz, C0)
 
 
@@ -128,8 +142,9 @@ def strain_and_force(
             if start[b] == start[b + 1]:
                 continue
             copy_tile(nodes, above, b, row, tile)
+            origin = block_origin(mesh, corner, b)
             for p in range(start[b], start[b + 1]):
-                n, wx, wy, wz = locate(shape, mesh, corner, b, half, x, p)
+                n, wx, wy, wz = locate(shape, mesh, origin, half, x, p)
                 _, sx, sy, sz = collect(tile, n, row, wx, wy, wz)
                 advance(law, strain_increment(mesh, sx, sy, sz, dt), V, stress, state, p, dt)
                 C1, C2, C3 = internal_force(mesh, V, stress, p)

@@ -1,7 +1,11 @@
-"""Vectors of eight doubles for numba kernels: one node record, one cache line, one register.
+"""Vectors of doubles for numba kernels: eight lanes for a node record, four for a point in space.
 
-LLVM lowers `<8 x double>` to one AVX-512, two AVX2 or four NEON registers.
+LLVM lowers eight lanes to one AVX-512, two AVX2 or four NEON registers. A record is one cache line.
+Arithmetic (+ − * /, min, max) works lane by lane, with numbers too, so that a formula written for
+numbers also serves the three axes at once.
 """
+
+import operator
 
 import numpy as np
 from llvmlite import ir
@@ -9,28 +13,31 @@ from numba.core import cgutils, types
 from numba.core.datamodel import models
 from numba.core.datamodel.registry import register_default
 from numba.core.extending import intrinsic
+from numba.extending import overload
 
 LANES = 8
 LINE = 64  # bytes of a cache line
 
-_VECTOR = ir.VectorType(ir.DoubleType(), LANES)
 _INT = ir.IntType(32)
-_UNDEFINED = ir.Constant(_VECTOR, ir.Undefined)
-_ZERO_MASK = ir.Constant(ir.VectorType(_INT, LANES), [0] * LANES)
+_DOUBLE = ir.DoubleType()
 
 
-class _Vector8(types.Type):
-    def __init__(self):
-        super().__init__(name="Vector8")
+class Vector(types.Type):
+    """Numba type of a vector of so many doubles."""
+
+    def __init__(self, lanes):
+        self.lanes = lanes
+        self.llvm = ir.VectorType(_DOUBLE, lanes)
+        super().__init__(name=f"Vector{lanes}")
 
 
-vector8 = _Vector8()
-
-
-@register_default(_Vector8)
-class _Vector8Model(models.PrimitiveModel):
+@register_default(Vector)
+class _VectorModel(models.PrimitiveModel):
     def __init__(self, manager, kind):
-        super().__init__(manager, kind, _VECTOR)
+        super().__init__(manager, kind, kind.llvm)
+
+
+vector4, vector8 = Vector(4), Vector(8)
 
 
 def aligned(count):
@@ -40,32 +47,55 @@ def aligned(count):
     return raw[skip : skip + count]
 
 
-def _address(context, builder, kind, array, index):
+def _mask(*lanes):
+    return ir.Constant(ir.VectorType(_INT, len(lanes)), list(lanes))
+
+
+def _zero(lanes):
+    return ir.Constant(ir.VectorType(_DOUBLE, lanes), [0.0] * lanes)
+
+
+def _undefined(lanes):
+    return ir.Constant(ir.VectorType(_DOUBLE, lanes), ir.Undefined)
+
+
+def _broadcast(builder, x, lanes):
+    first = builder.insert_element(_undefined(lanes), x, _INT(0))
+    return builder.shuffle_vector(first, _undefined(lanes), _mask(*[0] * lanes))
+
+
+def _address(context, builder, kind, array, index, lanes):
     data = context.make_array(kind)(context, builder, array).data
-    return builder.bitcast(builder.gep(data, [index]), _VECTOR.as_pointer())
+    return builder.bitcast(builder.gep(data, [index]), ir.VectorType(_DOUBLE, lanes).as_pointer())
 
 
-def _broadcast(builder, x):
-    first = builder.insert_element(_UNDEFINED, x, _INT(0))
-    return builder.shuffle_vector(first, _UNDEFINED, _ZERO_MASK)
+def _is_contiguous(array):
+    return isinstance(array, types.Array) and array.dtype == types.float64 and array.layout == "C"
+
+
+# Memory
 
 
 @intrinsic
 def load(typing, array, index):
-    """Eight values of a flat float64 array from `index` on."""
+    """Eight values of a flat array from `index` on."""
+    if not _is_contiguous(array):
+        return None
 
     def codegen(context, builder, sig, args):
-        return builder.load(_address(context, builder, sig.args[0], *args), align=8)
+        return builder.load(_address(context, builder, sig.args[0], *args, LANES), align=8)
 
     return vector8(array, types.intp), codegen
 
 
 @intrinsic
 def store(typing, array, index, v):
-    """Write eight values to a flat float64 array from `index` on."""
+    """Write eight values to a flat array from `index` on."""
+    if not _is_contiguous(array):
+        return None
 
     def codegen(context, builder, sig, args):
-        address = _address(context, builder, sig.args[0], args[0], args[1])
+        address = _address(context, builder, sig.args[0], *args[:2], LANES)
         builder.store(args[2], address, align=8)
         return context.get_dummy_value()
 
@@ -73,23 +103,153 @@ def store(typing, array, index, v):
 
 
 @intrinsic
-def splat(typing, x):
-    """The same value in all lanes."""
+def load_row(typing, array, p):
+    """Row p of an (n, 3) array in four lanes, the last one zero."""
+    if not _is_contiguous(array):
+        return None
 
     def codegen(context, builder, sig, args):
-        return _broadcast(builder, args[0])
+        first = builder.mul(args[1], args[1].type(3))
+        address = _address(context, builder, sig.args[0], args[0], first, 3)
+        three = builder.load(address, align=8)
+        return builder.shuffle_vector(three, _zero(3), _mask(0, 1, 2, 3))
+
+    return vector4(array, types.intp), codegen
+
+
+@intrinsic
+def store_row(typing, array, p, v):
+    """Write the first three lanes to row p of an (n, 3) array."""
+    if not _is_contiguous(array):
+        return None
+
+    def codegen(context, builder, sig, args):
+        first = builder.mul(args[1], args[1].type(3))
+        address = _address(context, builder, sig.args[0], args[0], first, 3)
+        three = builder.shuffle_vector(args[2], args[2], _mask(0, 1, 2))
+        builder.store(three, address, align=8)
+        return context.get_dummy_value()
+
+    return types.void(array, types.intp, vector4), codegen
+
+
+@intrinsic
+def load_column(typing, array, p, column):
+    """Column (a literal) of the symmetric tensor in row p, (n, 6), in lanes 4, 5, 6 of eight.
+
+    Components are in the order xx yy zz xy yz xz.
+    """
+    if not _is_contiguous(array) or not isinstance(column, types.IntegerLiteral):
+        return None
+    i, j, k = ((0, 3, 5), (3, 1, 4), (5, 4, 2))[column.literal_value]
+
+    def codegen(context, builder, sig, args):
+        first = builder.mul(args[1], args[1].type(6))
+        address = _address(context, builder, sig.args[0], args[0], first, 6)
+        six = builder.load(address, align=8)
+        return builder.shuffle_vector(six, _zero(6), _mask(6, 6, 6, 6, i, j, k, 6))
+
+    return vector8(array, types.intp, column), codegen
+
+
+# Making and taking apart
+
+
+@intrinsic
+def splat(typing, x):
+    """The same value in all eight lanes."""
+
+    def codegen(context, builder, sig, args):
+        return _broadcast(builder, args[0], LANES)
 
     return vector8(types.float64), codegen
+
+
+def _packed(context, builder, sig, args):
+    v = _undefined(len(args))
+    for i, x in enumerate(args):
+        v = builder.insert_element(v, x, _INT(i))
+    return v
+
+
+@intrinsic
+def pack(typing, a, b, c, d, e, f, g, h):
+    """Eight numbers in one vector."""
+    return vector8(*[types.float64] * 8), _packed
+
+
+@intrinsic
+def pack4(typing, a, b, c, d):
+    """Four numbers in one vector."""
+    return vector4(*[types.float64] * 4), _packed
+
+
+@intrinsic
+def lane(typing, v, i):
+    """One lane as a number."""
+    if not isinstance(v, Vector):
+        return None
+
+    def codegen(context, builder, sig, args):
+        return builder.extract_element(args[0], builder.trunc(args[1], _INT))
+
+    return types.float64(v, types.int64), codegen
+
+
+@intrinsic
+def quarter(typing, v, first):
+    """Four lanes of eight, from the literal `first` on, at most to the last."""
+    if v != vector8 or not isinstance(first, types.IntegerLiteral):
+        return None
+    lanes = [first.literal_value + i for i in range(4)]
+
+    def codegen(context, builder, sig, args):
+        return builder.shuffle_vector(args[0], args[0], _mask(*lanes))
+
+    return vector4(v, first), codegen
+
+
+@intrinsic
+def with_velocity(typing, v, u):
+    """The eight lanes of v with the first three of u in lanes 1, 2, 3."""
+
+    def codegen(context, builder, sig, args):
+        wide = builder.shuffle_vector(args[1], args[1], _mask(0, 0, 1, 2, 0, 0, 0, 0))
+        return builder.shuffle_vector(args[0], wide, _mask(0, 9, 10, 11, 4, 5, 6, 7))
+
+    return vector8(vector8, vector4), codegen
+
+
+@intrinsic
+def along(typing, values, axis):
+    """One lane (a literal) of each vector in a tuple, as a tuple of numbers; numbers stay."""
+    if not isinstance(values, types.BaseTuple) or not isinstance(axis, types.IntegerLiteral):
+        return None
+    kind, index = types.UniTuple(types.float64, len(values)), _INT(axis.literal_value)
+
+    def codegen(context, builder, sig, args):
+        numbers = [
+            builder.extract_element(x, index) if isinstance(each, Vector) else x
+            for each, x in zip(values, cgutils.unpack_tuple(builder, args[0]), strict=True)
+        ]
+        return context.make_tuple(builder, kind, numbers)
+
+    return kind(values, axis), codegen
+
+
+# Arithmetic
 
 
 @intrinsic
 def scale(typing, a, v):
     """a v"""
+    if not isinstance(v, Vector):
+        return None
 
     def codegen(context, builder, sig, args):
-        return builder.fmul(_broadcast(builder, args[0]), args[1])
+        return builder.fmul(_broadcast(builder, args[0], v.lanes), args[1])
 
-    return vector8(types.float64, vector8), codegen
+    return v(types.float64, v), codegen
 
 
 @intrinsic
@@ -97,41 +257,95 @@ def add(typing, v, w):
     """v + w"""
 
     def codegen(context, builder, sig, args):
-        return builder.fadd(args[0], args[1])
+        return builder.fadd(*args)
 
-    return vector8(vector8, vector8), codegen
+    return v(v, v), codegen
 
 
 @intrinsic
 def axpy(typing, a, v, w):
     """a v + w with one rounding."""
+    if not isinstance(v, Vector):
+        return None
 
     def codegen(context, builder, sig, args):
-        kind = ir.FunctionType(_VECTOR, [_VECTOR] * 3)
-        fma = cgutils.get_or_insert_function(builder.module, kind, "llvm.fma.v8f64")
-        return builder.call(fma, [_broadcast(builder, args[0]), args[1], args[2]])
+        kind = ir.FunctionType(v.llvm, [v.llvm] * 3)
+        name = f"llvm.fma.v{v.lanes}f64"
+        fma = cgutils.get_or_insert_function(builder.module, kind, name)
+        return builder.call(fma, [_broadcast(builder, args[0], v.lanes), *args[1:]])
 
-    return vector8(types.float64, vector8, vector8), codegen
+    return v(types.float64, v, v), codegen
 
 
 @intrinsic
-def pack(typing, a, b, c, d, e, f, g, h):
-    """Eight scalars in one vector."""
+def truncate(typing, v):
+    """Every lane without its fraction."""
 
     def codegen(context, builder, sig, args):
-        v = _UNDEFINED
-        for i, x in enumerate(args):
-            v = builder.insert_element(v, x, _INT(i))
-        return v
+        kind = ir.FunctionType(v.llvm, [v.llvm])
+        name = f"llvm.trunc.v{v.lanes}f64"
+        return builder.call(cgutils.get_or_insert_function(builder.module, kind, name), args)
 
-    return vector8(*[types.float64] * LANES), codegen
+    return v(v), codegen
 
 
 @intrinsic
-def lane(typing, v, i):
-    """One lane as a scalar."""
+def within(typing, v, low, high):
+    """Whether low ≤ v ≤ high in every lane; false for NaN."""
 
     def codegen(context, builder, sig, args):
-        return builder.extract_element(args[0], builder.trunc(args[1], _INT))
+        v, low, high = args
+        above = builder.fcmp_ordered(">=", v, low)
+        below = builder.fcmp_ordered("<=", v, high)
+        bits = builder.bitcast(builder.and_(above, below), ir.IntType(sig.args[0].lanes))
+        return builder.icmp_unsigned("==", bits, bits.type(2**bits.type.width - 1))
 
-    return types.float64(vector8, types.int64), codegen
+    return types.boolean(v, v, v), codegen
+
+
+def _lanewise(operation, emit):
+    """Let an operation of Python take vectors, or a vector and a number, in kernels."""
+
+    def instruction(typing, a, b):
+        v = a if isinstance(a, Vector) else b
+
+        def codegen(context, builder, sig, args):
+            vectors = [
+                x if isinstance(kind, Vector) else _broadcast(builder, x, v.lanes)
+                for kind, x in zip(sig.args, args, strict=True)
+            ]
+            return emit(builder, *vectors)
+
+        return v(*[k if isinstance(k, Vector) else types.float64 for k in (a, b)]), codegen
+
+    apply = intrinsic(instruction)
+
+    @overload(operation)
+    def implementation(a, b):
+        number = (types.Number, Vector)
+        if isinstance(a, Vector) and isinstance(b, number) or isinstance(b, Vector) and isinstance(a, number):
+            return lambda a, b: apply(a, b)
+        return None
+
+
+def _choose(relation):
+    # a first: where one is NaN the comparison is false and the second one is taken, as by the CPU
+    def emit(builder, a, b):
+        return builder.select(builder.fcmp_ordered(relation, a, b), a, b)
+
+    return emit
+
+
+_lanewise(operator.add, lambda builder, a, b: builder.fadd(a, b))
+_lanewise(operator.sub, lambda builder, a, b: builder.fsub(a, b))
+_lanewise(operator.mul, lambda builder, a, b: builder.fmul(a, b))
+_lanewise(operator.truediv, lambda builder, a, b: builder.fdiv(a, b))
+_lanewise(min, _choose("<"))
+_lanewise(max, _choose(">"))
+
+
+@overload(operator.neg)
+def _negative(a):
+    if isinstance(a, Vector):
+        return lambda a: -1.0 * a
+    return None

