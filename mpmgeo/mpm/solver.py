@@ -166,6 +166,16 @@ class Solver:
         self.time, self.steps = kept["time"], kept["steps"]
         self.peak_energy = None
 
+    def kept_stress(self, kept, row):
+        """Return the stress (6,) [Pa] of the particle in a row of the case in a kept state."""
+        copies = iter(kept["arrays"])
+        for s in self.sets:
+            mine = dict(zip(map(id, s.arrays()), copies))  # noqa: B905
+            found = np.flatnonzero(mine[id(s.row)] == row)
+            if len(found):
+                return mine[id(s.stress)][found[0]]
+        raise KeyError(row)
+
     # The stages
 
     def _run(self, kernel, *arguments):

@@ -1,4 +1,4 @@
-"""What the user sees of a run: a live bar on a terminal, plain lines elsewhere, a table at the end."""
+"""What the user sees of a run: a live bar or plain lines, and a table at the end."""
 
 import sys
 from time import perf_counter

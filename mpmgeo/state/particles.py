@@ -44,7 +44,11 @@ class ParticleSet:
 
     def arrays(self):
         """Return the arrays that are permuted together."""
-        optional = (self.half if isinstance(self.half, np.ndarray) else None, self.force, self.state)
+        optional = (
+            self.half if isinstance(self.half, np.ndarray) else None,
+            self.force,
+            self.state,
+        )
         always = (self.row, self.x, self.v, self.m, self.V, self.stress)
         return [a for a in (*always, *optional) if a is not None]
 

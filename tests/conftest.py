@@ -1,0 +1,23 @@
+"""What all tests share; the modules beside this file can be imported by every test."""
+
+import os
+
+# Before numba is imported: threads are tested on machines with one processor too.
+os.environ.setdefault("NUMBA_NUM_THREADS", str(max(2, os.cpu_count() or 1)))
+
+import pytest
+from hypothesis import settings
+
+# Kernels may be compiled inside an example, so examples have no deadline.
+settings.register_profile("mpmgeo", deadline=None, print_blob=True)
+settings.load_profile("mpmgeo")
+
+
+@pytest.fixture
+def threads():
+    """A function that sets numba's number of threads, which is put back after the test."""
+    import numba
+
+    before = numba.get_num_threads()
+    yield numba.set_num_threads
+    numba.set_num_threads(before)
