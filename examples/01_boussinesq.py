@@ -1,8 +1,8 @@
 """A point force on an elastic cube: settlement below it, beside that of a half-space.
 
-Runs the case of inputs/boussinesq and compares the particles nearest to the axis of the force with
-Boussinesq's formula. Near the force they agree; towards the floor, which does not give way, the cube
-settles less.
+Runs the case of inputs/boussinesq and compares the particles nearest to the axis of the force
+with Boussinesq's formula. Near the force they agree; towards the floor, which does not give way,
+the cube settles less.
 """
 
 from pathlib import Path

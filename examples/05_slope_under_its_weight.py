@@ -1,8 +1,10 @@
-"""An elastic slope finds its static state under its own weight.
+"""An elastic slope finds its static state under its own weight, with two kinds of damping.
 
 The slope is a polygon extruded by one cell between two sliding planes (plane strain), on a fixed
-floor at z = 0. At rest the stresses carry the weight: multiplying the equilibrium by the height z and
-adding up gives ΣVσzz = −Σmgz, whatever the shape of the slope.
+floor at z = 0. Kinetic damping stops all motion whenever the kinetic energy has passed a peak, local
+damping brakes every node by a share of its force; both lead to the same state. There the stresses
+carry the weight: multiplying the equilibrium by the height z and adding up gives ΣVσzz = −Σmgz,
+whatever the shape of the slope.
 """
 
 from mpmgeo import Simulation, load_case
@@ -28,10 +30,16 @@ CASE = {
             "material_id": 1,
         }
     ],
-    "damping": {"type": "kinetic"},
 }
 
-simulation = Simulation(load_case(CASE)).run()
+
+def settle(damping):
+    """Return the simulation of the slope at rest."""
+    return Simulation(load_case(CASE | {"damping": damping})).run()
+
+
+simulation = settle({"type": "kinetic"})
+braked = settle({"type": "local", "value": 0.3})
 
 displacement = simulation.field("displacement")
 height = simulation.field("position")[:, 2]
@@ -39,6 +47,7 @@ vertical_stress = simulation.field("stress")[:, 2]
 carried = -simulation.field("volume") @ vertical_stress
 weight_moment = GRAVITY * simulation.field("mass") @ height
 crest_settlement = -displacement[:, 2].min()
+crest_settlement_braked = -braked.field("displacement")[:, 2].min()
 
 
 def plot():

@@ -4,13 +4,13 @@ One particle after the other, on a dense grid, in one thread. Tests compare the 
 benchmarks measure against it. Capitals are nodal: mass M, momentum P, force F, velocity U and
 acceleration A.
 
-    M = Σ m S,   P = Σ m v S,   F = Σ (f S − V σ ∇S),   U = P/M,   A = F/M
+    M = Σ m S,   P = Σ m v S,   F = Σ (f S − V σ ∇S),   A = F/M,   U = P/M + h A
     v ← v + h Σ A S,   x ← x + Δt Σ U S,   L = Σ U ⊗ ∇S,   Δε = ½(L + Lᵀ) Δt
 
 Source: Sulsky, Zhou and Schreyer (1995), Comput. Phys. Commun. 87, 236–252, sections 3 and 4.
 """
 
-from math import floor
+from math import floor, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -40,6 +40,12 @@ def plus(a, s, b):
 
 
 @inlined
+def size(a):
+    """Return the length of a vector."""
+    return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2])
+
+
+@inlined
 def vector(field, n):
     """Return the vector of node n."""
     return field[n[0], n[1], n[2], 0], field[n[0], n[1], n[2], 1], field[n[0], n[1], n[2], 2]
@@ -53,17 +59,17 @@ def add(field, n, a):
 
 
 @inlined
-def along(shape, box, half, x, p, axis):
+def stencil_along(axis, shape, box, half, x, p):
     """Return the first node of particle p along an axis, its weights and slopes per cell."""
     S = width(shape)
     g = (x[p, axis] - box.origin[axis]) / box.cell[axis]
-    first = int(floor(g - 0.5 * (S - 2)))
+    first = floor(g - 0.5 * (S - 2))
     return first + box.ghosts, stencil(shape, g - first - 0.5 * (S - 1), half[p, axis])
 
 
 @inlined
 def slopes(wx, wy, wz, i, j, k, cell):
-    """Return ∇S of the node (i, j, k) of a stencil."""
+    """Return ∇S of node (i, j, k) of a stencil."""
     S = len(wx) // 2
     return (
         wx[S + i] * wy[j] * wz[k] / cell[0],
@@ -77,9 +83,9 @@ def scatter(shape, box, rows, half, x, v, m, V, stress, force, M, P, F):
     """Add mass and momentum to the nodes, and force; what is None is left out."""
     S = width(shape)
     for p in rows:
-        I, wx = along(shape, box, half, x, p, 0)
-        J, wy = along(shape, box, half, x, p, 1)
-        K, wz = along(shape, box, half, x, p, 2)
+        I, wx = stencil_along(0, shape, box, half, x, p)
+        J, wy = stencil_along(1, shape, box, half, x, p)
+        K, wz = stencil_along(2, shape, box, half, x, p)
         mass = m[p]
         momentum = plus(ZERO, mass, (v[p, 0], v[p, 1], v[p, 2]))
         f = force[p, 0], force[p, 1], force[p, 2]
@@ -103,13 +109,44 @@ def scatter(shape, box, rows, half, x, v, m, V, stress, force, M, P, F):
 
 
 @compiled
+def update_nodes(h, local, cutoff, free, M, P, F, U, A):
+    """Make velocities of the nodal momentum and, unless the force is None, integrate it over h.
+
+    `free`: 0 for components that a plane holds; `local`: share of local damping, None without.
+    """
+    for n in np.ndindex(M.shape):
+        u = a = ZERO
+        if M[n] > cutoff:
+            u = held(free, n, plus(ZERO, 1.0 / M[n], vector(P, n)))
+            if F is not None:
+                a = held(free, n, plus(ZERO, 1.0 / M[n], vector(F, n)))
+                if local is not None and size(u) > 0.0:
+                    a = held(free, n, plus(a, -local * size(a) / size(u), u))
+                u = plus(u, h, a)
+        for c in range(3):
+            U[n[0], n[1], n[2], c] = u[c]
+            if F is not None:
+                A[n[0], n[1], n[2], c] = a[c]
+
+
+@inlined
+def held(free, n, a):
+    """Return what the planes leave of a vector of node n."""
+    f = vector(free, n)
+    return f[0] * a[0], f[1] * a[1], f[2] * a[2]
+
+
+@compiled
 def gather(shape, box, law, rows, half, x, v, V, stress, A, drift, U, dt, h):
-    """Change v by the nodal A, x by the nodal drift, strain with the nodal U; None is left out."""
+    """Change v by the nodal A, move x with `drift`, strain with U; what is None is left out.
+
+    `law` None: no strain.
+    """
     S = width(shape)
     for p in rows:
-        I, wx = along(shape, box, half, x, p, 0)
-        J, wy = along(shape, box, half, x, p, 1)
-        K, wz = along(shape, box, half, x, p, 2)
+        I, wx = stencil_along(0, shape, box, half, x, p)
+        J, wy = stencil_along(1, shape, box, half, x, p)
+        K, wz = stencil_along(2, shape, box, half, x, p)
         a = u = dx = dy = dz = ZERO
         for i in range(S):
             for j in range(S):
@@ -122,8 +159,8 @@ def gather(shape, box, law, rows, half, x, v, V, stress, A, drift, U, dt, h):
                         u = plus(u, w, vector(drift, n))
                     if law is not None:
                         gx, gy, gz = slopes(wx, wy, wz, i, j, k, box.cell)
-                        U_n = vector(U, n)
-                        dx, dy, dz = plus(dx, gx, U_n), plus(dy, gy, U_n), plus(dz, gz, U_n)
+                        nodal = vector(U, n)
+                        dx, dy, dz = plus(dx, gx, nodal), plus(dy, gy, nodal), plus(dz, gz, nodal)
         for c in range(3):
             v[p, c] += h * a[c]
             x[p, c] += dt * u[c]
@@ -133,7 +170,7 @@ def gather(shape, box, law, rows, half, x, v, V, stress, A, drift, U, dt, h):
 
 @inlined
 def strain(law, dx, dy, dz, V, stress, p, dt):
-    """Update volume and stress of particle p for the columns of its velocity gradient."""
+    """Update volume and stress of particle p; `dx` … are the columns of its velocity gradient."""
     ε = (
         dx[0] * dt,
         dy[1] * dt,
@@ -150,27 +187,6 @@ def strain(law, dx, dy, dz, V, stress, p, dt):
 
 
 @compiled
-def move_nodes(h, local, cutoff, free, M, P, F, U, A):
-    """Make velocity of the nodal momentum and, unless the force is None, integrate it over h.
-
-    `free`: which components the planes leave; `local`: share of local damping, None without.
-    """
-    for n in np.ndindex(M.shape):
-        u = a = ZERO
-        if M[n] > cutoff:
-            u = times(vector(free, n), plus(ZERO, 1.0 / M[n], vector(P, n)))
-            if F is not None:
-                a = times(vector(free, n), plus(ZERO, 1.0 / M[n], vector(F, n)))
-                if local is not None:
-                    a = times(vector(free, n), plus(a, -local * size(a) / max(size(u), TINY), u))
-                u = plus(u, h, a)
-        for c in range(3):
-            U[n[0], n[1], n[2], c] = u[c]
-            if F is not None:
-                A[n[0], n[1], n[2], c] = a[c]
-
-
-@compiled
 def leave(box, x, active):
     """Take out the particles that are not in the mesh; return how many."""
     left = 0
@@ -184,14 +200,13 @@ def leave(box, x, active):
 
 
 def free_components(box, planes):
-    """Return 0 for nodal components (nx, ny, nz, 3) that a plane holds, 1 for others."""
-    shape = [n + 1 + 2 * box.ghosts for n in box.cells]
-    free = np.ones((*shape, 3))
-    kinds = (planes.x0, planes.y0, planes.z0), (planes.xn, planes.yn, planes.zn)
-    for axis in range(3):
-        along_axis = np.moveaxis(free, axis, 0)
-        lower, upper = along_axis[: box.ghosts + 1], along_axis[box.ghosts + box.cells[axis] :]
-        for slab, kind in ((lower, kinds[0][axis]), (upper, kinds[1][axis])):
+    """Return 0 for nodal components (nx, ny, nz, 3) that a plane holds, 1 for the others."""
+    free = np.ones((*(n + 1 + 2 * box.ghosts for n in box.cells), 3))
+    kinds = ((planes.x0, planes.xn), (planes.y0, planes.yn), (planes.z0, planes.zn))
+    for axis, (lower, upper) in enumerate(kinds):
+        nodes = np.moveaxis(free, axis, 0)
+        first, last = nodes[: box.ghosts + 1], nodes[box.ghosts + box.cells[axis] :]
+        for slab, kind in ((first, lower), (last, upper)):
             if kind == FIXED:
                 slab[:] = 0.0
             elif kind == SLIDING:
@@ -200,44 +215,85 @@ def free_components(box, planes):
 
 
 class PlainSolver:
-    """A copy of a solver's state that steps on by itself; arrays `x`, `v` … are in row order.
+    """A copy of a solver's state that steps on by itself; its arrays are in row order.
 
-    Raises ValueError for a moving base, point loads, damping other than local, laws with a state.
+    Raises ValueError for a moving base, point loads, damping other than local, laws with variables.
     """
 
     def __init__(self, solver):
         if solver.base or solver.point_loads or solver.delayed or solver.settles:
             raise ValueError("no moving base, point loads or damping but local in the plain solver")
         if any(s.law.STATE for s in solver.sets):
-            raise ValueError("no laws with variables of their own in the plain solver")
+            raise ValueError("no laws with variables in the plain solver")
         self.shape, self.time_step, self.steps = solver.shape, solver.time_step, solver.steps
         self.local, self.cutoff = solver.local, solver.cutoff
-        mesh, ghosts = solver.grid.mesh, (width(solver.shape) + 1) // 2
-        self.box = Box(mesh[:3], mesh[3:6], mesh[9:], ghosts)
-        self._copy_particles(solver)
+        mesh = solver.grid.mesh
+        self.box = Box(mesh[:3], mesh[3:6], mesh[9:], ghosts=(width(solver.shape) + 1) // 2)
         self.free = free_components(self.box, solver.planes)
         self.M = np.zeros(self.free.shape[:3])
         self.P, self.F, self.U, self.A = (np.zeros_like(self.free) for _ in range(4))
-        self._step = {usl: self._usl, musl: self._musl, usf: self._usf}[solver.scheme]
+        self._copy(solver)
+        self._scheme = {usl: self._usl, musl: self._musl, usf: self._usf}[solver.scheme]
 
-    def _copy_particles(self, solver):
+    def _copy(self, solver):
         n = solver.count
-        self.x, self.v, self.force, self.half = (np.zeros((n, 3)) for _ in range(4))
         self.m, self.V, self.stress = np.zeros(n), np.zeros(n), np.zeros((n, 6))
+        self.x, self.v, self.force, self.half = (np.zeros((n, 3)) for _ in range(4))
         self.active = np.zeros(n, bool)
-        self.bodies = [(s.law, np.sort(s.row)) for s in solver.sets]
         for s in solver.sets:
-            self.x[s.row], self.v[s.row], self.stress[s.row] = s.x, s.v, s.stress
+            self.active[s.row[: s.active]] = True
             self.m[s.row], self.V[s.row], self.half[s.row] = s.m, s.V, s.half
+            self.x[s.row], self.v[s.row], self.stress[s.row] = s.x, s.v, s.stress
             self.force[s.row] = s.m[:, None] * solver.gravity
             if s.force is not None:
                 self.force[s.row] += s.force
-            self.active[s.row[: s.active]] = True
+        self.sets = [(s.law, np.sort(s.row[: s.active])) for s in solver.sets]
 
     def step(self):
         """Advance by one time step; the first one changes velocities by half a step."""
-        h = 0.5 * self.time_step if self.steps == 0 else self.time_step
-        if leave(self.box, self.x, self.active) or self.steps == 0:
-            self.rows = [rows[self.active[rows]] for rows in self.all_rows]
-        self._step(h)
+        if leave(self.box, self.x, self.active):
+            self.sets = [(law, rows[self.active[rows]]) for law, rows in self.sets]
+        self._scheme(0.5 * self.time_step if self.steps == 0 else self.time_step)
         self.steps += 1
+
+    def _usl(self, h):
+        self._scatter(self.M, self.P, self.F)
+        self._update_nodes(h, self.F)
+        self._gather(h, self.A, self.U, strains=True)
+
+    def _musl(self, h):
+        self._scatter(self.M, self.P, self.F)
+        self._update_nodes(h, self.F)
+        self._gather(h, self.A, None)
+        drift = self.U.copy()
+        self._scatter(self.M, self.P, None)
+        self._update_nodes(h, None)
+        self._gather(h, None, drift, strains=True)
+
+    def _usf(self, h):
+        self._scatter(self.M, self.P, None)
+        self._update_nodes(h, None)
+        self._gather(h, None, None, strains=True)
+        self._scatter(None, None, self.F)
+        self._update_nodes(h, self.F)
+        self._gather(h, self.A, self.U)
+
+    def _scatter(self, M, P, F):
+        for nodal in (M, P, F):
+            if nodal is not None:
+                nodal[:] = 0.0
+        for _, rows in self.sets:
+            scatter(
+                *(self.shape, self.box, rows, self.half, self.x, self.v, self.m),
+                *(self.V, self.stress, self.force, M, P, F),
+            )
+
+    def _update_nodes(self, h, F):
+        update_nodes(h, self.local, self.cutoff, self.free, self.M, self.P, F, self.U, self.A)
+
+    def _gather(self, h, A, drift, strains=False):
+        for law, rows in self.sets:
+            gather(
+                *(self.shape, self.box, law if strains else None, rows, self.half, self.x, self.v),
+                *(self.V, self.stress, A, drift, self.U, self.time_step, h),
+            )

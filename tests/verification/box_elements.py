@@ -6,8 +6,17 @@ driven by what the half-space solution leaves on the walls. By symmetry a quarte
 """
 
 import numpy as np
-from skfem import Basis, ElementHex2, ElementVector, FacetBasis, LinearForm, MeshHex
-from skfem import asm, condense, solve
+from skfem import (
+    Basis,
+    ElementHex2,
+    ElementVector,
+    FacetBasis,
+    LinearForm,
+    MeshHex,
+    asm,
+    condense,
+    solve,
+)
 from skfem.models.elasticity import lame_parameters, linear_elasticity
 
 from mpmgeo.verify.half_space import HalfSpace
@@ -24,7 +33,9 @@ class BoxUnderForce:
         mesh = MeshHex.init_tensor(*half, np.linspace(-depth, 0, elements + 1))
         element = ElementVector(ElementHex2())
         self.basis = Basis(mesh, element, intorder=4)
-        stiffness = asm(linear_elasticity(*lame_parameters(ground.young, ground.poisson)), self.basis)
+        stiffness = asm(
+            linear_elasticity(*lame_parameters(ground.young, ground.poisson)), self.basis
+        )
         walls = mesh.facets_satisfying(lambda x: self._on_wall(x).any(axis=0))
         pull = LinearForm(self._pull).assemble(FacetBasis(mesh, element, facets=walls, intorder=6))
         prescribed, values = self._supports()

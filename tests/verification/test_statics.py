@@ -7,7 +7,6 @@ from scenes import cuboid, initial_position, scene, simulate
 from mpmgeo.verify.beam import Cantilever
 from mpmgeo.verify.column import Column
 
-
 # Kinetic damping stops the particles; USF then never sees the strain of the step before, so that
 # its displacements are too large by an error of first order in the time step.
 SETTLEMENT = {"USL": 0.005, "MUSL": 0.005, "USF": 0.06}
@@ -50,9 +49,7 @@ def test_cantilever_under_end_load():
         cell,
         [cuboid([0, 0, 0], [beam.length, cell, beam.depth])],
         origin=[0.0, 0.0, -0.2],
-        materials=[
-            {"type": "elastic", "id": 1, "density": 2000.0, "young": 100e6, "poisson": 0.0}
-        ],
+        materials=[{"type": "elastic", "id": 1, "density": 2000.0, "young": 100e6, "poisson": 0.0}],
         time=1.0,
         critical_time_step_multiplier=0.5,
         damping={"type": "kinetic"},

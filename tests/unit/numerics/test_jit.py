@@ -68,7 +68,7 @@ def test_folder_depends_on_every_source_of_kernels(copy, source):
 def test_folder_depends_on_new_sources(copy):
     package, folder = copy
     before = folder()
-    (package / "materials" / "new_law.py").write_text("")
+    (package / "materials" / "new_law.py").write_text("STATE = ()\n")
     assert folder() != before
 
 
