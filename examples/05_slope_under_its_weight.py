@@ -1,10 +1,10 @@
 """An elastic slope finds its static state under its own weight, with two kinds of damping.
 
 The slope is a polygon extruded by one cell between two sliding planes (plane strain), on a fixed
-floor at z = 0. Kinetic damping stops all motion whenever the kinetic energy has passed a peak, local
-damping brakes every node by a share of its force; both lead to the same state. There the stresses
-carry the weight: multiplying the equilibrium by the height z and adding up gives ΣVσzz = −Σmgz,
-whatever the shape of the slope.
+floor at z = 0. Kinetic damping stops all motion whenever the kinetic energy has passed a peak,
+local damping brakes every node by a share of its force; both lead to the same state. There the
+stresses carry the weight: multiplying the equilibrium by the height z and adding up gives
+ΣVσzz = −Σmgz, whatever the shape of the slope.
 """
 
 from mpmgeo import Simulation, load_case

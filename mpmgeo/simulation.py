@@ -127,8 +127,14 @@ class Simulation:
         try:
             action()
         except Unsound as error:
-            last = None if self._kept is None else self.solver.kept_stress(self._kept, error.row)
-            raise Diverged(diagnose(self, error, last)) from error
+            raise Diverged(diagnose(self, error, self._last_stress(error.row))) from error
+
+    def _last_stress(self, row):
+        """Return the stress (6,) [Pa] in the state kept last of the particle in a row, or None."""
+        for copy in self._kept["sets"] if self._kept else ():
+            if (found := copy["row"] == row).any():
+                return copy["stress"][found][0]
+        return None
 
     def keep(self):
         """Keep a copy of the state."""

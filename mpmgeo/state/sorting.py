@@ -148,7 +148,7 @@ def sort(grid, sets, serial):
         places, origin = places[:moves], origin[:moves]
         if moves:
             rows = np.empty(moves * 6)
-            for a in map(_rows, s.arrays()):
+            for a in map(_rows, s.arrays().values()):
                 width = a.shape[1]
                 kernel = permute.serial if serial else permute
                 if moves * width > rows.size:

@@ -53,6 +53,8 @@ def slope_under_its_weight(example):
     """ΣVσzz = −Σmgz to 0.3 %: the floor also pushes at nodes a cell below it, at z = −0.25 m."""
     assert example["carried"] == pytest.approx(example["weight_moment"], rel=0.003)
     assert example["simulation"].kinetic_energy() < 1e-20
+    settlement = example["crest_settlement"]
+    assert example["crest_settlement_braked"] == pytest.approx(settlement, rel=0.01)
 
 
 CHECKS = {

@@ -2,7 +2,8 @@
 
 Near the force the solution is singular, which no element can follow. So the displacement is split
 into that of the half-space, exact and singular, and a smooth rest; the elements solve for the rest,
-driven by what the half-space solution leaves on the walls. By symmetry a quarter of the box is enough.
+driven by what the half-space solution leaves on the walls. By symmetry a quarter of the box is
+enough.
 """
 
 import numpy as np
@@ -51,7 +52,7 @@ class BoxUnderForce:
 
     def _on_wall(self, x):
         extent = np.abs(self.basis.mesh.p).max(axis=1)
-        return np.abs(x) > extent[:, None] * [[1], [1], [1]] - ROUND_OFF
+        return np.abs(x) > extent[:, None] - ROUND_OFF
 
     def _pull(self, v, w):
         """Traction of the half-space solution on the walls, times the test function."""

@@ -1,4 +1,4 @@
-"""Static states reached with kinetic damping: a column under its weight, a cantilever under load."""
+"""Static states by kinetic damping: a column under its weight, a cantilever under load."""
 
 import numpy as np
 import pytest
@@ -41,7 +41,7 @@ def test_column_under_its_weight(scheme):
 
 
 def test_cantilever_under_end_load():
-    """A load shared by the particles of the last cells bends the beam as the theory says, to 2 %."""
+    """A load shared by the particles of the last cells bends the beam as in theory, to 2 %."""
     beam = Cantilever(length=2.0, depth=0.4, young=100e6, poisson=0.0)
     cell, load = 0.1, 4000.0
     case = scene(

@@ -5,7 +5,7 @@ from assembly import assemble
 def test_arrays_are_those_of_the_scene():
     """What a scene does not use has no array to be sorted."""
     s = assemble(np.zeros((4, 3))).sets[0]
-    assert [a.shape for a in s.arrays()] == [(4,), (4, 3), (4, 3), (4,), (4,), (4, 6)]
+    assert [a.shape for a in s.arrays().values()] == [(4,), (4, 3), (4, 3), (4,), (4,), (4, 6)]
     s.half, s.force, s.state = np.ones((4, 3)), np.ones((4, 3)), np.ones((4, 2))
     assert len(s.arrays()) == 9
 
