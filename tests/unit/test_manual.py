@@ -31,6 +31,7 @@ def run(script, folder, **environment):
     )
 
 
+@pytest.mark.slow
 def test_new_models_work_as_the_manual_says(tmp_path):
     """The files of the page on architecture, put into a copy of the package, make a case run."""
     shutil.copytree(

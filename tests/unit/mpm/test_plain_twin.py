@@ -79,3 +79,33 @@ def test_agree(shape, scheme, small):
     block = 4 * twin.box.cell[0]
     crossed = np.floor((twin.x[:, 0] - 0.3) / block) != np.floor((start[:, 0] - 0.3) / block)
     assert crossed.sum() > 20
+
+
+def test_agree_with_damping_loads_mixed_sizes_and_departures():
+    case = scene(damping={"type": "local", "value": 0.3})
+    case["mesh"]["boundary_conditions"] |= {"plane_X0": "free", "plane_Yn": "free"}
+    case["body"][1] |= {"material_id": 1, "particles_per_direction": [1, 3, 2]}
+    case["body"][1]["initial_velocity"] = [0.0, 40.0, -15.0]
+    case["body"].append(case["body"][1] | {"material_id": 2, "center": [0.6, 0.2, -1.4]})
+    case["load_distributed_box"] = [
+        {"point_p1": [0.6, -0.3, -1.8], "point_p2": [0.9, 0.3, -1.6], "load": [0.0, 50.0, -90.0]}
+    ]
+    simulation, twin = both(case)
+    assert isinstance(simulation.solver.sets[0].half, np.ndarray)
+    assert simulation.solver.sets[0].force is not None
+    assert_same_steps(simulation, twin)
+    assert 10 < twin.active.sum() < len(twin.active) - 10
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [
+        {"nodal_point_load": [[[0.75, 0.0, -1.65], [0.0, 0.0, -1.0]]]},
+        {"damping": {"type": "kinetic"}},
+        {"damping": {"type": "local", "value": 0.1}, "compatibility": "mpm-geomechanics"},
+    ],
+    ids=["point load", "kinetic damping", "delayed damping"],
+)
+def test_twin_refuses_what_it_lacks(keys):
+    with pytest.raises(ValueError, match="plain solver"):
+        both(scene(**keys))

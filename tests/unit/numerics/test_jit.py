@@ -134,29 +134,50 @@ def mine(law, stress, strain, state, dt):
 KERNEL = """
 from mpmgeo.materials.law import update_stress
 from mpmgeo.numerics.jit import compiled
-from my_law import Mine
 @compiled
 def kernel(law):
     zero = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     return update_stress(law, zero, zero, (), 1.0)[0]
-if __name__ == "__main__":
-    import kernel as imported
-    print(imported.kernel(Mine(10.0)))
+"""
+USE_MINE = "from kernel import kernel; from my_law import Mine; print(kernel(Mine(10.0)))"
+USE_ELASTIC = """
+from kernel import kernel
+from mpmgeo.materials import Elastic
+print(kernel(Elastic(id=1, density=1.0, young=1.0, poisson=0.25).symbols))
 """
 
 
-def test_an_edited_law_of_a_user_is_compiled_anew(tmp_path):
-    """A law outside the package is no source of the cache folder; its old code must not be used."""
+@pytest.fixture
+def user(tmp_path):
+    """A function that runs a script in a user's folder, which has a law and a kernel for it."""
     (tmp_path / "kernel.py").write_text(KERNEL)
     path = os.pathsep.join([str(tmp_path), str(PACKAGE.parent)])
     variables = {"NUMBA_CACHE_DIR": str(tmp_path / "cache"), "PYTHONPATH": path}
-    for factor in (1.0, 2.0):
-        (tmp_path / "my_law.py").write_text(LAW.replace("FACTOR", str(factor)))
+
+    def run(script):
         done = subprocess.run(
-            [sys.executable, "-B", str(tmp_path / "kernel.py")],
+            [sys.executable, "-B", "-c", script],
             env=os.environ | variables,
             capture_output=True,
             text=True,
-            check=True,
         )
-        assert float(done.stdout) == 10.0 * factor
+        assert done.returncode == 0, done.stderr
+        return float(done.stdout)
+
+    return run
+
+
+def test_an_edited_law_of_a_user_is_compiled_anew(user, tmp_path):
+    """A law outside the package is no source of the cache folder; its old code must not be used."""
+    for factor in (1.0, 2.0):
+        (tmp_path / "my_law.py").write_text(LAW.replace("FACTOR", str(factor)))
+        assert user(USE_MINE) == 10.0 * factor
+
+
+def test_a_law_of_a_user_does_not_disturb_others(user, tmp_path):
+    """Where that law cannot be imported, the cache must serve the other laws nevertheless."""
+    assert user(USE_ELASTIC) == 0.0
+    (tmp_path / "my_law.py").write_text(LAW.replace("FACTOR", "3.0"))
+    assert user(USE_MINE) == 30.0
+    (tmp_path / "my_law.py").unlink()
+    assert user(USE_ELASTIC) == 0.0
