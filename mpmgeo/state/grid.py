@@ -93,8 +93,8 @@ class Grid:
             self.below = _find(keys, keys_of(self.active_corner[:, None] - self._steps))
         else:
             self.below = np.empty((0, self.reach**3), np.int64)
-        self.tiles = _room(self.tiles, len(keys) * self.record)
-        self.nodes = _room(self.nodes, len(self.active) * NODES * LANES)
+        self.tiles = _room(self.tiles, len(keys) * self.side**3)
+        self.nodes = _room(self.nodes, len(self.active) * NODES)
         self.nodes[:] = 0.0
         _, now, before = np.intersect1d(self.active, old, return_indices=True)
         self.records()[now] = records[before]  # the last velocities, which damping may ask for
@@ -129,7 +129,7 @@ def cut(start):
 
 
 def _room(buffer, count):
-    """Return a buffer for `count` doubles: the old one if it fits and is not far too large."""
-    if count <= buffer.size <= 2 * count:
+    """Return a buffer for `count` records: the old one if it fits and is not far too large."""
+    if count * LANES <= buffer.size <= 2 * count * LANES:
         return buffer
-    return aligned(count + count // 16)
+    return aligned((count + count // 16) * LANES)
