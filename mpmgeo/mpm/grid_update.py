@@ -1,9 +1,9 @@
 """The step of the nodes: sum the tiles, divide by mass, damp, apply the boundaries, integrate.
 
-A node takes part when its mass exceeds a cut-off, far below the smallest particle mass: at the edge
-of a particle's support round-off leaves masses so small that their velocities would be absurd. Real
-overlap must pass, however small, since its forces count in the balance of momentum: the cut-off is
-the mass of a lightest particle that reaches over the node by 1e-12 of a cell.
+At the edge of a particle's support round-off leaves nodal masses so small that forces of round-off
+would give them absurd velocities. Below a cut-off, the mass of a lightest particle that reaches over
+the node by 1e-12 of a cell, a node keeps the velocity of its particles: a mean of theirs is always
+safe, while zero would strain them. The forces still reach the particles, so momentum stays.
 """
 
 from numba import prange
@@ -73,7 +73,7 @@ def update_momentum(
                 at = (b * NODES + n) * LANES
                 r = load(scratch, first + n * LANES)
                 m = lane(r, 0)
-                if not m > cutoff:
+                if not m > 0.0:
                     store(nodes, at, splat(0.0))
                     continue
                 w = 1.0 / m
@@ -90,13 +90,12 @@ def update_momentum(
                     ax, ay, az = _damped(local, ax, ay, az, vx, vy, vz)
                     if bounded:
                         ax, ay, az = constrain(planes, mesh, i, j, k, ax, ay, az, pull, True)
-                store(nodes, at, pack(vx + ax * h, vy + ay * h, vz + az * h, ax, ay, az, m, 0.0))
+                q = h if m > cutoff else 0.0
+                store(nodes, at, pack(vx + ax * q, vy + ay * q, vz + az * q, ax, ay, az, m, 0.0))
 
 
 @blockwise
-def update_velocity(
-    shape, mesh, planes, base, drives, cutoff, chunk, corner, below, tiles, scratch, nodes
-):
+def update_velocity(shape, mesh, planes, base, drives, chunk, corner, below, tiles, scratch, nodes):
     """Make nodal velocities of momentum; what was the velocity moves to the acceleration's place.
 
     `base`: velocity of a moving base, which its nodes take if it `drives`.
@@ -115,7 +114,7 @@ def update_velocity(
                 at = (b * NODES + n) * LANES
                 r = load(scratch, first + n * LANES)
                 m = lane(r, 0)
-                if not m > cutoff:
+                if not m > 0.0:
                     store(nodes, at, splat(0.0))
                     continue
                 w = 1.0 / m

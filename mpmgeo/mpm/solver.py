@@ -57,7 +57,7 @@ class Solver:
     local: float | None = None
     delayed: float | None = None
     settles: bool = False
-    cutoff: float = 0.0  # [kg] a node takes part if its mass exceeds it
+    cutoff: float = 0.0  # [kg] nodal mass up to which forces do not move a node
 
     time: float = 0.0
     steps: int = 0
@@ -203,7 +203,7 @@ class Solver:
         velocity = self._motion.after if base == "after" else self._motion.before
         self._run(
             grid_update.update_velocity,
-            *(self.planes, velocity, self._motion.drives, self.cutoff),
+            *(self.planes, velocity, self._motion.drives),
             *(g.chunk, g.active_corner, g.below, g.tiles, g.scratch, g.nodes),
         )
         self.clock.lap("grid update")

@@ -79,7 +79,7 @@ def particle_field(solver, key):
     if key == "material":
         return population.material.astype(np.uint32)
     if key == "body":
-        return population.body
+        return population.body.copy()
     if key == "active":
         active = np.zeros(count, np.uint8)
         for s in solver.sets:
@@ -114,14 +114,16 @@ def particle_arrays(solver, keys):
     return arrays
 
 
-def grid_arrays(grid, node_id, keys):
+def grid_arrays(solver, node_id, keys):
     """Return the arrays of a grid file at the nodes `node_id` (n,), ascending, by their names."""
-    mesh = grid.mesh
+    grid, mesh = solver.grid, solver.grid.mesh
     nodes = np.array([mesh.nx, mesh.ny, mesh.nz]) + 5
     mass, velocity = np.zeros(len(node_id)), np.zeros((len(node_id), 3))
     if {"active", "mass", "velocity"} & set(keys):
         index, records = grid.indices().reshape(-1, 3) + 2, grid.records().reshape(-1, 8)
-        used = (records[:, 6] > 0) & (index >= 0).all(axis=1) & (index < nodes).all(axis=1)
+        used = (
+            (records[:, 6] > solver.cutoff) & (index >= 0).all(axis=1) & (index < nodes).all(axis=1)
+        )
         index, records = index[used], records[used]
         number = index @ np.array([1, nodes[0], nodes[0] * nodes[1]])
         at = np.searchsorted(node_id, number.astype(np.uint64))
