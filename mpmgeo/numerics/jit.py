@@ -2,6 +2,7 @@
 
 import hashlib
 import os
+import sys
 import tempfile
 import types
 from pathlib import Path
@@ -63,3 +64,22 @@ def blockwise(function):
     threaded = numba.njit(parallel=True, cache=cache, **OPTIONS)(function)
     threaded.serial = numba.njit(cache=cache, **OPTIONS)(twin)
     return threaded
+
+
+def prepare():
+    """Load numba's compiler now, and without scipy, as a program's process may.
+
+    Numba imports scipy where it is installed, for a BLAS that no kernel here uses: a third of a
+    second at the start of every run. Scripts that use the library keep numba as it is.
+    """
+    from numba.core.registry import cpu_target
+
+    hidden = "scipy" not in sys.modules
+    if hidden:
+        sys.modules["scipy"] = None
+    try:
+        cpu_target.typing_context.refresh()
+        cpu_target.target_context.refresh()
+    finally:
+        if hidden:
+            del sys.modules["scipy"]
