@@ -13,9 +13,10 @@ NamedTuple of its symbols, and its formula is registered for that type:
 
 import inspect
 
+from numba.core import types
 from numba.extending import overload
 
-from mpmgeo.numerics.jit import OPTIONS
+from mpmgeo.numerics.jit import OPTIONS, keep_apart
 
 
 def generic(stub):
@@ -35,7 +36,7 @@ def generic(stub):
         raise TypeError(f"{stub.__name__} has no implementation for {cls.__name__}")
 
     def chosen(model):
-        if model is None or getattr(model, "literal_value", model) is None:
+        if model is None or isinstance(model, types.NoneType):
             return implementations.get(type(None))
         cls = getattr(model, "instance_class", None)
         return None if cls is None else find(cls)
@@ -58,6 +59,8 @@ def generic(stub):
             if found != names:
                 raise ValueError(f"{stub.__name__} takes ({arguments}), not ({', '.join(found)})")
             implementations[cls] = implementation
+            if _is_ours(stub) and not _is_ours(implementation):
+                keep_apart(implementation.__code__.co_filename)
             return implementation
 
         return add
@@ -65,3 +68,7 @@ def generic(stub):
     function.register = register
     overload(function, jit_options={**OPTIONS, "forceinline": True})(scope["template"])
     return function
+
+
+def _is_ours(function):
+    return function.__module__.split(".")[0] == "mpmgeo"

@@ -94,7 +94,7 @@ def particle_field(solver, key):
 
 def _by_row(solver, name):
     arrays = [getattr(s, name) for s in solver.sets]
-    shape = arrays[0].shape[1:] if arrays else ()
+    shape = {"x": (3,), "v": (3,), "stress": (6,)}.get(name, ())
     field = np.zeros((len(solver.population.position), *shape))
     for s, array in zip(solver.sets, arrays, strict=True):
         field[s.row] = array
