@@ -70,7 +70,7 @@ def test_bits_do_not_depend_on_outputs(scheme, tmp_path, monkeypatch):
     case = two_blocks(**keys)
     case["body"][1]["initial_velocity"] = fast
     quiet = simulate(case).run()
-    for wanted in (3, 400):
+    for wanted in (3, 50):
         shown = {
             "print": wanted,
             "material_point_results": ["all"],
