@@ -41,6 +41,7 @@ class Simulation:
         self.critical_time_step = critical_time_step(case, self.field("velocity"))
         self.interrupted = False
         self._kept = None
+        self._results = None
         self._told = set()
 
     def _set_threads(self, wanted):
@@ -72,9 +73,11 @@ class Simulation:
     def _files(self, every):
         if self.output is None:
             return []
-        from mpmgeo.output.results import ResultFiles
+        if self._results is None:
+            from mpmgeo.output.results import ResultFiles
 
-        return [ResultFiles(self.output, self.case, every)]
+            self._results = ResultFiles(self.output, self.case, every)
+        return [self._results]
 
     def step(self, steps=1):
         """Advance by some steps; returns the simulation."""

@@ -21,20 +21,3 @@ def threads():
     before = numba.get_num_threads()
     yield numba.set_num_threads
     numba.set_num_threads(before)
-
-
-@pytest.fixture(scope="module")
-def uncached():
-    """Keep kernels out of the disk cache that are made for classes which only the tests know."""
-    from numba.core.caching import NullCache
-
-    from mpmgeo.mpm import grid_update, transfer
-
-    kernels = [*vars(transfer).values(), *vars(grid_update).values()]
-    twins = [twin for k in kernels if hasattr(k, "serial") for twin in (k, k.serial)]
-    before = [twin._cache for twin in twins]
-    for twin in twins:
-        twin._cache = NullCache()
-    yield
-    for twin, cache in zip(twins, before, strict=True):
-        twin._cache = cache

@@ -157,7 +157,13 @@ class Solver:
             for name, a in s.arrays().items():
                 np.copyto(copy[name], a)
         order = [(s.start, s.chunk) for s in self.sets]
-        return {"sets": copies, "order": order, "time": self.time, "steps": self.steps}
+        return {
+            "sets": copies,
+            "order": order,
+            "departures": len(self.departures),
+            "time": self.time,
+            "steps": self.steps,
+        }
 
     def restore(self, kept):
         """Go back to the particles that `keep` returned; to look at, not to run on from.
@@ -170,6 +176,7 @@ class Solver:
             s.start, s.chunk = order
         self.time, self.steps = kept["time"], kept["steps"]
         self.peak_energy = None
+        del self.departures[kept["departures"] :]
         self._sort()
         self.scatter()
         self.update_momentum(0.0)

@@ -25,7 +25,9 @@ class ResultFiles:
         self._cells = None
 
     def begin(self, simulation):
-        """Remove the files of the run before, write the initial state."""
+        """Remove the files of the run before, write the initial state; go on in a second call."""
+        if self.written is not None:
+            return
         for collection in (self.particles, self.grid):
             _, left = remove_previous(collection.path)
             if left:

@@ -11,6 +11,7 @@ from numba import prange
 from mpmgeo.numerics.jit import blockwise, compiled, inlined
 from mpmgeo.state.grid import KEY_BITS, KEY_SHIFT, cut
 
+FEW = 20_000  # particles up to which moving them costs less than waking threads
 OUTSIDE = -1
 UNKNOWN = -2  # UNKNOWN − key: the block with this key is not in the table
 
@@ -150,7 +151,7 @@ def sort(grid, sets, serial):
             rows = np.empty(moves * 6)
             for a in map(_rows, s.arrays().values()):
                 width = a.shape[1]
-                kernel = permute.serial if serial else permute
+                kernel = permute.serial if moves <= FEW else permute
                 if moves * width > rows.size:
                     rows = np.empty(moves * width)
                 kernel(a, places, origin, rows[: moves * width].reshape(moves, width))

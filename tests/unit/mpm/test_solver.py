@@ -174,10 +174,24 @@ def test_a_state_is_kept_over_an_older_one():
     assert not (by_row(solver, "x") == x).all() and solver.steps == 1
 
 
+@pytest.mark.parametrize("steps, gone", [(1, 0), (2, 2)])
+def test_who_left_after_the_kept_state_is_back(steps, gone):
+    """What is told of departures fits the particles; two are outside after the second step."""
+    solver = leaving()
+    for _ in range(steps):
+        solver.step()
+    kept = solver.keep(None)
+    for _ in range(3):
+        solver.step()
+    assert sum(len(d.rows) for d in solver.departures) == 2
+    solver.restore(kept)
+    assert solver.sets[0].active == 4 - gone
+    assert sum(len(d.rows) for d in solver.departures) == gone
+
+
 # Laws with variables of their own
 
 
-@pytest.mark.usefixtures("uncached")
 @pytest.mark.parametrize("scheme", ["USL", "MUSL", "USF"])
 def test_a_law_of_a_user_with_two_variables(scheme):
     """It gives Hooke's stresses, and its variables tell volume strain and number of updates."""

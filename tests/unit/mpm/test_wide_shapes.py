@@ -10,8 +10,6 @@ from models import Spline6, Spline10
 from mpmgeo.shapes import SHAPES
 from mpmgeo.shapes.shape import stencil, width
 
-pytestmark = pytest.mark.usefixtures("uncached")
-
 ALL = SHAPES | {"spline6": Spline6(), "spline10": Spline10()}
 SHAPE = pytest.mark.parametrize("shape", ALL.values(), ids=ALL)
 ORIGIN, CELL, CELLS = np.array([-3.0, 0.5, 7.0]), np.array([0.5, 0.25, 1.0]), np.array([11, 9, 13])
