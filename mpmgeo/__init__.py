@@ -1,8 +1,8 @@
 """mpmgeo: explicit 3D material point method for geomechanics, driven by JSON cases.
 
-    case = mpmgeo.load_case("case.json")
-    simulation = mpmgeo.Simulation(case).run()
-    displacement = simulation.field("displacement")
+case = mpmgeo.load_case("case.json")
+simulation = mpmgeo.Simulation(case).run()
+displacement = simulation.field("displacement")
 """
 
 __all__ = ["CaseError", "Simulation", "load_case"]

@@ -1,4 +1,4 @@
-"""Declare a parameter of a case once: schema, checks, defaults, messages and manual read it from here."""
+"""Declare a parameter of a case once: schema, checks, messages and manual read it from here."""
 
 from dataclasses import MISSING, field
 

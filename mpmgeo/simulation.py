@@ -15,7 +15,7 @@ from mpmgeo.run.watch import Diverged, Guard
 
 
 class Nodes(NamedTuple):
-    """Nodes that carry mass: index with two ghost layers, position [m], mass [kg], velocity [m/s]."""
+    """Nodes with mass: index with two ghost layers, position [m], mass [kg], velocity [m/s]."""
 
     index: np.ndarray
     position: np.ndarray
@@ -27,7 +27,8 @@ class Simulation:
     """A case with its state.
 
     `output`: folder for the files of the run, None for none; `threads`: number of threads, by
-    default what the case says, or all. Raises ValueError for a file or geometry that cannot be used.
+    default what the case says, or all. Raises ValueError for a file or geometry that cannot be
+    used.
     """
 
     def __init__(self, case, output=None, threads=None):
@@ -39,6 +40,7 @@ class Simulation:
         self.threads = self._set_threads(threads or case.n_threads)
         self.critical_time_step = critical_time_step(case, self.field("velocity"))
         self.interrupted = False
+        self._kept = None
         self._told = set()
 
     def _set_threads(self, wanted):
@@ -125,15 +127,22 @@ class Simulation:
         try:
             action()
         except Unsound as error:
-            raise Diverged(diagnose(self, error)) from error
+            raise Diverged(diagnose(self, error, self._last_stress(error.row))) from error
 
-    def keep(self, kept):
-        """Return a copy of the state, written over `kept` where that fits."""
-        return self.solver.keep(kept)
+    def _last_stress(self, row):
+        """Return the stress (6,) [Pa] in the state kept last of the particle in a row, or None."""
+        for copy in self._kept["sets"] if self._kept else ():
+            if (found := copy["row"] == row).any():
+                return copy["stress"][found][0]
+        return None
 
-    def restore(self, kept):
-        """Go back to a state that `keep` returned."""
-        self.solver.restore(kept)
+    def keep(self):
+        """Keep a copy of the state."""
+        self._kept = self.solver.keep(self._kept)
+
+    def restore(self):
+        """Go back to the state that was kept; to look at, not to run on from."""
+        self.solver.restore(self._kept)
 
     # The state
 
@@ -170,7 +179,7 @@ class Simulation:
         return self.solver.kinetic_energy()
 
     def output_energy(self):
-        """Return the kinetic energy [J] of the step, before kinetic damping stopped the particles."""
+        """Return the kinetic energy [J], before kinetic damping stopped the particles."""
         peak = self.solver.peak_energy
         return self.kinetic_energy() if peak is None else peak
 

@@ -36,6 +36,8 @@ class Polygon2D(Filled):
         """Yield (key, message) if the points span no polygon."""
         if len(self.points) < 3:
             yield "points", f"has {len(self.points)} points and needs at least 3"
+        elif self._is_flat():
+            yield "points", f"enclose no area in the plane across {self.extrude_direction}"
 
     def lattice(self, cell: np.ndarray) -> Lattice:
         """Return the candidate positions; raises ValueError if there are too many."""
@@ -58,6 +60,12 @@ class Polygon2D(Filled):
         )
         notes = lattice.surplus(self.extrude_direction) + _oversize(lattice.size, cell)
         return lattice.cloud(fastest="x", keep=inside, notes=notes)
+
+    def _is_flat(self):
+        """Tell whether all corners lie on one line in the plane of the polygon."""
+        plane = np.delete(np.array(self.points, dtype=np.float64), self._along, axis=1)
+        size = np.linalg.svd(plane - plane[0], compute_uv=False)
+        return size[1] <= ROUND_OFF * size[0]
 
     @property
     def _along(self):

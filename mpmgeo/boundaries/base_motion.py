@@ -1,6 +1,6 @@
 """The lowest plane as a moving base: its velocity from a record of accelerations.
 
-    v ← v + a(t) h,  h half a step at first, as for the particles
+v ← v + a(t) h,  h half a step at first, as for the particles
 """
 
 from typing import NamedTuple
@@ -9,7 +9,7 @@ from mpmgeo.boundaries.planes import BASE, FIXED, SLIDING, Planes
 
 
 class Motion(NamedTuple):
-    """Motion of the base in a step for kernels: velocity before and after [m/s], acceleration [m/s²].
+    """Motion of the base in a step: velocity before and after [m/s], acceleration [m/s²].
 
     `drives`: whether base nodes take the velocity, or only the acceleration.
     """
@@ -18,7 +18,6 @@ class Motion(NamedTuple):
     after: tuple
     acceleration: tuple
     drives: bool
-
 
 
 ZERO = (0.0, 0.0, 0.0)
@@ -43,7 +42,7 @@ class BaseMotion:
         return planes._replace(z0=BASE)
 
     def advance(self, t, h) -> Motion:
-        """Return the motion during the step from time t [s] on in which velocities change by h a."""
+        """Return the motion in the step from time t [s] on, where velocities change by h a."""
         acceleration = self.record.at(t)
         self.ended = acceleration is None
         if self.ended:
@@ -75,7 +74,7 @@ class BaseMotionAsMPMGeomechanics(BaseMotion):
         return Planes(SLIDING, SLIDING, BASE, SLIDING, SLIDING, SLIDING, upper_wins=True)
 
     def advance(self, t, h) -> Motion:
-        """Return the motion during the step from time t [s] on in which velocities change by h a."""
+        """Return the motion in the step from time t [s] on, where velocities change by h a."""
         times = self.record.time
         self.ended = t >= times[-1]
         if self.ended:

@@ -21,7 +21,7 @@ def _plane(where):
 
 @dataclass(frozen=True)
 class BoundaryConditions:
-    """Condition of every bounding plane of the mesh: free, sliding (no normal velocity) or fixed."""
+    """Conditions of the six bounding planes: free, sliding (no normal velocity) or fixed."""
 
     plane_X0: str | None = _plane("of lowest x")
     plane_Y0: str | None = _plane("of lowest y")
@@ -61,7 +61,7 @@ def touches(corner, cells, side):
 @inlined
 def _keep(kind, beyond):
     """Return the factors of the components normal and tangential to a plane."""
-    if not beyond or kind == FREE or kind == BASE:
+    if not beyond or kind in (FREE, BASE):
         return 1.0, 1.0
     return 0.0, 0.0 if kind == FIXED else 1.0
 
@@ -75,9 +75,9 @@ def constrain(planes, mesh, I, J, K, x, y, z, base, on_base):
     nx, tx = _keep(planes.x0, I <= 0)
     ny, ty = _keep(planes.y0, J <= 0)
     nz, tz = _keep(planes.z0, K <= 0)
-    px, sx = _keep(planes.xn, I >= mesh.nx)
-    py, sy = _keep(planes.yn, J >= mesh.ny)
-    pz, sz = _keep(planes.zn, K >= mesh.nz)
+    px, sx = _keep(planes.xn, mesh.nx <= I)
+    py, sy = _keep(planes.yn, mesh.ny <= J)
+    pz, sz = _keep(planes.zn, mesh.nz <= K)
     upper_x, upper_y, upper_z = px * sy * sz, sx * py * sz, sx * sy * pz
     if planes.z0 == BASE and K <= 0:
         if on_base:

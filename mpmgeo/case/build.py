@@ -53,7 +53,7 @@ def build(case):
 
 
 def critical_time_step(case, velocity):
-    """Return the time [s] in which a wave crosses a cell, the particles moving at `velocity` (n, 3).
+    """Return the time [s] in which a wave crosses a cell, particles moving at `velocity` (n, 3).
 
     The smallest cell size over the largest wave speed of a material in use plus particle speed; for
     MPM-Geomechanics the mean cell size over the largest wave speed of all materials.

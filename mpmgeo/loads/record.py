@@ -36,7 +36,9 @@ class Record:
             return rows[-1]
         before = after - 1
         share = (t - time[before]) / (time[after] - time[before])
-        return tuple((1 - share) * a + share * b for a, b in zip(*rows[before : after + 1], strict=True))
+        return tuple(
+            (1 - share) * a + share * b for a, b in zip(*rows[before : after + 1], strict=True)
+        )
 
 
 def read_record(path: Path | str, header: bool = True) -> Record:

@@ -15,7 +15,7 @@ from mpmgeo.state.grid import NODES, SIDE
 
 @inlined
 def _sum_tiles(tiles, below, a, row, reach, out, first):
-    """Sum the tiles over active block a into 64 records of `out` from `first` on, in fixed order."""
+    """Sum the tiles over active block a, in fixed order, into 64 records of `out` from `first`."""
     for n in range(NODES):
         store(out, first + n * LANES, splat(0.0))
     size = row * row * row * LANES
@@ -64,7 +64,9 @@ def update_momentum(
         for b in range(chunk[c], chunk[c + 1]):
             _sum_tiles(tiles, below, b, row, reach, scratch, first)
             I, J, K = corner[b, 0], corner[b, 1], corner[b, 2]
-            bounded = touches(I, mesh.nx, SIDE) or touches(J, mesh.ny, SIDE) or touches(K, mesh.nz, SIDE)
+            bounded = (
+                touches(I, mesh.nx, SIDE) or touches(J, mesh.ny, SIDE) or touches(K, mesh.nz, SIDE)
+            )
             for n in range(NODES):
                 at = (b * NODES + n) * LANES
                 r = load(scratch, first + n * LANES)
@@ -104,7 +106,9 @@ def update_velocity(
         for b in range(chunk[c], chunk[c + 1]):
             _sum_tiles(tiles, below, b, row, reach, scratch, first)
             I, J, K = corner[b, 0], corner[b, 1], corner[b, 2]
-            bounded = touches(I, mesh.nx, SIDE) or touches(J, mesh.ny, SIDE) or touches(K, mesh.nz, SIDE)
+            bounded = (
+                touches(I, mesh.nx, SIDE) or touches(J, mesh.ny, SIDE) or touches(K, mesh.nz, SIDE)
+            )
             for n in range(NODES):
                 at = (b * NODES + n) * LANES
                 r = load(scratch, first + n * LANES)

@@ -10,7 +10,7 @@ from mpmgeo.numerics.simd import lane, load_column, load_row, scale, with_veloci
 
 @inlined
 def momentum_and_weight(m, v, weight, p):
-    """Return mass, momentum and weight of particle p as a record; `weight` has 1, g in its lanes."""
+    """Return mass, momentum, weight of particle p as a record; `weight` has 1 and g as lanes."""
     return scale(m[p], with_velocity(weight, load_row(v, p)))
 
 

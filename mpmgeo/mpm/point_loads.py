@@ -3,7 +3,7 @@
 import numpy as np
 
 from mpmgeo.numerics.simd import LANES
-from mpmgeo.state.grid import NODES, SIDE, keys_of
+from mpmgeo.state.grid import SIDE, keys_of
 
 MASS, FORCE = 0, slice(4, 7)
 
@@ -45,8 +45,8 @@ class PointLoads:
     def idle(self, grid):
         """Return which loads (k,) act on a node without mass, and so on nothing."""
         mass = np.zeros(len(self.node))
-        records = grid.records()
-        for index, (key, inner) in enumerate(zip(keys_of(self.node // SIDE), self.node % SIDE)):
+        records, keys = grid.records(), keys_of(self.node // SIDE)
+        for index, (key, inner) in enumerate(zip(keys, self.node % SIDE, strict=True)):
             block = np.searchsorted(grid.active, key)
             if block < len(grid.active) and grid.active[block] == key:
                 n = (inner[0] * SIDE + inner[1]) * SIDE + inner[2]

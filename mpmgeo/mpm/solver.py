@@ -149,20 +149,22 @@ class Solver:
 
     def keep(self, kept):
         """Return a copy of what changes in a run, in the arrays of the copy `kept` if not None."""
-        arrays = [a for s in self.sets for a in s.arrays()]
-        copies = [np.empty_like(a) for a in arrays] if kept is None else kept["arrays"]
-        for copy, a in zip(copies, arrays, strict=True):
-            np.copyto(copy, a)
+        if kept is None:
+            copies = [{name: np.empty_like(a) for name, a in s.arrays().items()} for s in self.sets]
+        else:
+            copies = kept["sets"]
+        for s, copy in zip(self.sets, copies, strict=True):
+            for name, a in s.arrays().items():
+                np.copyto(copy[name], a)
         order = [(s.start, s.chunk) for s in self.sets]
-        return {"arrays": copies, "order": order, "time": self.time, "steps": self.steps}
+        return {"sets": copies, "order": order, "time": self.time, "steps": self.steps}
 
     def restore(self, kept):
         """Go back to the particles that `keep` returned; to look at, not to run on from."""
-        copies = iter(kept["arrays"])
-        for s, (start, chunk) in zip(self.sets, kept["order"], strict=True):
-            for a in s.arrays():
-                np.copyto(a, next(copies))
-            s.start, s.chunk = start, chunk
+        for s, copy, order in zip(self.sets, kept["sets"], kept["order"], strict=True):
+            for name, a in s.arrays().items():
+                np.copyto(a, copy[name])
+            s.start, s.chunk = order
         self.time, self.steps = kept["time"], kept["steps"]
         self.peak_energy = None
 

@@ -2,6 +2,7 @@
 
 from numba.extending import overload
 
+from mpmgeo.numerics import lanewise  # noqa: F401  teaches kernels the arithmetic of vectors
 from mpmgeo.numerics.jit import inlined
 from mpmgeo.numerics.simd import (
     LANES,
@@ -47,11 +48,15 @@ def block_origin(mesh, corner, b):
 
 @inlined
 def block_bounds(shape, mesh, corner, b):
-    """Return between which positions in block b, in cells, its particles are and are in the mesh."""
+    """Return the bounds, in cells from block b, of its particles that are in the mesh."""
     reach = 0.5 * (width(shape) - 2)
     i, j, k = corner[b, 0] * SIDE, corner[b, 1] * SIDE, corner[b, 2] * SIDE
     low = pack4(max(reach, -1.0 * i), max(reach, -1.0 * j), max(reach, -1.0 * k), 0.0)
-    x, y, z = min(reach + SIDE, 1.0 * (mesh.nx - i)), min(reach + SIDE, 1.0 * (mesh.ny - j)), min(reach + SIDE, 1.0 * (mesh.nz - k))
+    x, y, z = (
+        min(reach + SIDE, 1.0 * (mesh.nx - i)),
+        min(reach + SIDE, 1.0 * (mesh.ny - j)),
+        min(reach + SIDE, 1.0 * (mesh.nz - k)),
+    )
     return low, pack4(x, y, z, 0.0)
 
 
@@ -131,7 +136,7 @@ def copy_tile(nodes, above, b, row, tile):
 
 @inlined
 def collect(tile, n0, row, wx, wy, wz):
-    """Return Σ S r, and Σ ∂S/∂x r, Σ ∂S/∂y r, Σ ∂S/∂z r of the first four lanes of the records r."""
+    """Return Σ S r, and Σ ∂S/∂x r, Σ ∂S/∂y r, Σ ∂S/∂z r of four lanes of the records r."""
     S = len(wx) // 2
     value = splat(0.0)
     sx = sy = sz = pack4(0.0, 0.0, 0.0, 0.0)

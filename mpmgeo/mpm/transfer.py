@@ -1,9 +1,9 @@
 """Transfers between particles and nodes: scatter (P2G), gather (G2P) and both in one pass.
 
-A block's particles have the first node of their stencils in the block, so all their nodes lie in the
-block's *tile*: the block and a halo on the upper sides, (4 + S − 1)³ nodes. Scatter fills the tiles,
-each from its own particles alone; gather reads from a copy of the nodes under the tile. No two
-threads ever write the same place, and every sum has one order.
+A block's particles have the first node of their stencils in the block, so all their nodes lie in
+the block's *tile*: the block and a halo on the upper sides, (4 + S − 1)³ nodes. Scatter fills the
+tiles, each from its own particles alone; gather reads from a copy of the nodes under the tile. No
+two threads ever write the same place, and every sum has one order.
 
 Record of a tile: m, m v (3), f (3), spare. Record of a node: v (3), a (3), m, spare.
 
@@ -71,7 +71,23 @@ def scatter(
 
 @blockwise
 def gather(
-    shape, mesh, law, chunk, start, corner, above, nodes, scratch, half, x, v, V, stress, state, dt, h
+    shape,
+    mesh,
+    law,
+    chunk,
+    start,
+    corner,
+    above,
+    nodes,
+    scratch,
+    half,
+    x,
+    v,
+    V,
+    stress,
+    state,
+    dt,
+    h,
 ):
     """Move the particles with the nodes and update their stress; return how many left their block.
 
@@ -131,9 +147,24 @@ def remap(shape, mesh, first, chunk, start, corner, above, nodes, scratch, half,
 
 @blockwise
 def strain_and_force(
-    shape, mesh, law, chunk, start, corner, above, nodes, scratch, half, x, V, stress, state, dt, tiles
+    shape,
+    mesh,
+    law,
+    chunk,
+    start,
+    corner,
+    above,
+    nodes,
+    scratch,
+    half,
+    x,
+    V,
+    stress,
+    state,
+    dt,
+    tiles,
 ):
-    """Update stress with the nodal velocity and add the internal force of the new one to the tiles."""
+    """Update stress with the nodal velocity, add the internal force of the new one to the tiles."""
     row = SIDE + width(shape) - 1
     size = row * row * row * LANES
     for c in prange(len(chunk) - 1):

@@ -1,4 +1,4 @@
-"""Functions open to new models: one name, chosen by the type of the first argument, in Python and in kernels.
+"""Functions open to new models: chosen by the type of the first argument, in Python and kernels.
 
 Numba keeps a kernel in its disk cache when the kernel is specialised by the *type* of an argument,
 never when it takes or closes over another compiled function. So a law, shape or damping is a
@@ -42,7 +42,7 @@ def generic(stub):
 
     # numba's overload needs the very parameter names of the implementations
     scope = {"find": find, "chosen": chosen}
-    exec(  # noqa: S102
+    exec(
         f"def {stub.__name__}({arguments}): return find(type({names[0]}))({arguments})\n"
         f"def template({arguments}): return chosen({names[0]})",
         scope,

@@ -1,4 +1,4 @@
-"""Compilation: decorators for kernels, and a cache folder that never serves code of older sources."""
+"""Compilation: decorators for kernels, a cache folder that never serves code of older sources."""
 
 import hashlib
 import os
@@ -50,7 +50,7 @@ def compiled(function):
 
 
 def blockwise(function):
-    """Compile a loop over blocks twice over: `.threaded`, and `.serial` for scenes too small for it.
+    """Compile a loop over blocks for threads, and as `.serial` for scenes too small for them.
 
     Numba's cache tells functions apart by name and not by options, so the serial one gets its own.
     """
@@ -61,6 +61,5 @@ def blockwise(function):
     twin.__qualname__ = twin.__name__
     twin.__module__ = function.__module__
     threaded = numba.njit(parallel=True, cache=cache, **OPTIONS)(function)
-    threaded.threaded = threaded
     threaded.serial = numba.njit(cache=cache, **OPTIONS)(twin)
     return threaded

@@ -1,11 +1,7 @@
 """Vectors of doubles for numba kernels: eight lanes for a node record, four for a point in space.
 
 LLVM lowers eight lanes to one AVX-512, two AVX2 or four NEON registers. A record is one cache line.
-Arithmetic (+ − * /, min, max) works lane by lane, with numbers too, so that a formula written for
-numbers also serves the three axes at once.
 """
-
-import operator
 
 import numpy as np
 from llvmlite import ir
@@ -13,7 +9,6 @@ from numba.core import cgutils, types
 from numba.core.datamodel import models
 from numba.core.datamodel.registry import register_default
 from numba.core.extending import intrinsic
-from numba.extending import overload
 
 LANES = 8
 LINE = 64  # bytes of a cache line
@@ -41,7 +36,7 @@ vector4, vector8 = Vector(4), Vector(8)
 
 
 def aligned(count):
-    """Return `count` zeros (float64) that begin on a cache line, so that no record straddles two."""
+    """Return `count` zeros (float64) from a cache line on, so that no record straddles two."""
     raw = np.zeros(count + LINE // 8)
     skip = (-raw.ctypes.data % LINE) // 8
     return raw[skip : skip + count]
@@ -59,7 +54,8 @@ def _undefined(lanes):
     return ir.Constant(ir.VectorType(_DOUBLE, lanes), ir.Undefined)
 
 
-def _broadcast(builder, x, lanes):
+def broadcast(builder, x, lanes):
+    """Emit a vector with x in all lanes."""
     first = builder.insert_element(_undefined(lanes), x, _INT(0))
     return builder.shuffle_vector(first, _undefined(lanes), _mask(*[0] * lanes))
 
@@ -160,7 +156,7 @@ def splat(typing, x):
     """The same value in all eight lanes."""
 
     def codegen(context, builder, sig, args):
-        return _broadcast(builder, args[0], LANES)
+        return broadcast(builder, args[0], LANES)
 
     return vector8(types.float64), codegen
 
@@ -247,7 +243,7 @@ def scale(typing, a, v):
         return None
 
     def codegen(context, builder, sig, args):
-        return builder.fmul(_broadcast(builder, args[0], v.lanes), args[1])
+        return builder.fmul(broadcast(builder, args[0], v.lanes), args[1])
 
     return v(types.float64, v), codegen
 
@@ -272,7 +268,7 @@ def axpy(typing, a, v, w):
         kind = ir.FunctionType(v.llvm, [v.llvm] * 3)
         name = f"llvm.fma.v{v.lanes}f64"
         fma = cgutils.get_or_insert_function(builder.module, kind, name)
-        return builder.call(fma, [_broadcast(builder, args[0], v.lanes), *args[1:]])
+        return builder.call(fma, [broadcast(builder, args[0], v.lanes), *args[1:]])
 
     return v(types.float64, v, v), codegen
 
@@ -301,51 +297,3 @@ def within(typing, v, low, high):
         return builder.icmp_unsigned("==", bits, bits.type(2**bits.type.width - 1))
 
     return types.boolean(v, v, v), codegen
-
-
-def _lanewise(operation, emit):
-    """Let an operation of Python take vectors, or a vector and a number, in kernels."""
-
-    def instruction(typing, a, b):
-        v = a if isinstance(a, Vector) else b
-
-        def codegen(context, builder, sig, args):
-            vectors = [
-                x if isinstance(kind, Vector) else _broadcast(builder, x, v.lanes)
-                for kind, x in zip(sig.args, args, strict=True)
-            ]
-            return emit(builder, *vectors)
-
-        return v(*[k if isinstance(k, Vector) else types.float64 for k in (a, b)]), codegen
-
-    apply = intrinsic(instruction)
-
-    @overload(operation)
-    def implementation(a, b):
-        number = (types.Number, Vector)
-        if isinstance(a, Vector) and isinstance(b, number) or isinstance(b, Vector) and isinstance(a, number):
-            return lambda a, b: apply(a, b)
-        return None
-
-
-def _choose(relation):
-    # a first: where one is NaN the comparison is false and the second one is taken, as by the CPU
-    def emit(builder, a, b):
-        return builder.select(builder.fcmp_ordered(relation, a, b), a, b)
-
-    return emit
-
-
-_lanewise(operator.add, lambda builder, a, b: builder.fadd(a, b))
-_lanewise(operator.sub, lambda builder, a, b: builder.fsub(a, b))
-_lanewise(operator.mul, lambda builder, a, b: builder.fmul(a, b))
-_lanewise(operator.truediv, lambda builder, a, b: builder.fdiv(a, b))
-_lanewise(min, _choose("<"))
-_lanewise(max, _choose(">"))
-
-
-@overload(operator.neg)
-def _negative(a):
-    if isinstance(a, Vector):
-        return lambda a: -1.0 * a
-    return None

@@ -6,7 +6,9 @@ from mpmgeo.output.mesh_cells import all_cells, block_cells
 from mpmgeo.output.pvd import Collection, remove_previous
 from mpmgeo.output.vtu import write_hexahedra, write_points
 
-MANY_CELLS = 10_000_000  # above this a grid file holds the touched blocks only, unless asked for all
+MANY_CELLS = (
+    10_000_000  # above this a grid file holds the touched blocks only, unless asked for all
+)
 
 
 class ResultFiles:

@@ -3,19 +3,20 @@
 import numpy as np
 
 
-def diagnose(simulation, error):
+def diagnose(simulation, error, last_stress):
     """Return a message about the particle that an Unsound error names.
 
-    The particle's last stress is the one it had when it was found.
+    `last_stress` (6,) is the particle's in the last sound state [Pa], or None without one.
     """
     dt = simulation.time_step
     numbers = ", ".join(f"{x:.4g}" for x in error.position)
-    stress = ", ".join(f"{s:.4g}" for s in error.stress)
+    stress = error.stress if last_stress is None else last_stress
+    stress = ", ".join(f"{s:.4g}" for s in stress)
     speed = float(np.linalg.norm(error.velocity))
     return (
         f"the run diverged in step {error.step} (time {error.time:.6g} s): particle {error.row} of "
-        f"material {error.material} at ({numbers}) m has a speed of {speed:.4g} m/s and the stress "
-        f"({stress}) Pa; {_cause(simulation, dt)}; the files show the last sound state"
+        f"material {error.material} at ({numbers}) m has a speed of {speed:.4g} m/s, its last stress "
+        f"was ({stress}) Pa; {_cause(simulation, dt)}; the files show the last sound state"
     )
 
 
@@ -29,10 +30,11 @@ def _cause(simulation, dt):
     lightest = simulation.nodes().mass.min(initial=np.inf) / simulation.field("mass").min()
     if lightest < 1e-6:
         return (
-            f"likely cause: nodes of very little mass, the lightest {lightest:.1g} of a particle's; "
-            "try MUSL, or half the time step"
+            "likely cause: nodes of very little mass, the lightest with "
+            f"{lightest:.1g} of a particle's; try MUSL, or half the time step"
         )
     return (
-        f"the time step of {dt:.4g} s is below the critical one of {critical:.4g} s; likely causes: "
-        "very large loads or speeds, or particles squeezed to a fraction of their size"
+        f"the time step of {dt:.4g} s is below the critical one of {critical:.4g} s; "
+        "likely causes: very large loads or speeds, or particles squeezed to a fraction of their "
+        "size"
     )

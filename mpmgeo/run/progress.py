@@ -1,4 +1,4 @@
-"""What the user sees of a run: a live bar on a terminal, plain lines elsewhere, a table at the end."""
+"""What the user sees of a run: a live bar or plain lines, and a table at the end."""
 
 import sys
 from time import perf_counter
@@ -83,8 +83,10 @@ class Progress:
             self._news(simulation)
         now = perf_counter()
         if self._first_step is None:
-            self._first_step = now  # what follows is free of compilation
-            self._steps = simulation.steps
+            # what follows is free of compilation
+            self._first_step = self._shown = now
+            self._steps, self._first_time = simulation.steps, simulation.time
+            return
         if now - self._shown < (REFRESH if self.live else LINE):
             return
         self._shown = now
@@ -106,7 +108,9 @@ class Progress:
                 energy=simulation.kinetic_energy(),
             )
             return
-        left = (perf_counter() - self._start) * (1 - share) / max(share, 1e-9)
+        simulated = simulation.time - self._first_time
+        pace = (perf_counter() - self._first_step) / max(simulated, 1e-300)
+        left = max(simulation.case.time - simulation.time, 0.0) * pace
         self._print(
             f"step {simulation.steps}, t = {simulation.time:.4g} s, {100 * share:.0f}%, "
             f"{left:.0f} s left, {speed:.2f} M particle-steps/s, "

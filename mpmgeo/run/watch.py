@@ -1,7 +1,5 @@
 """The guard: checks the state from time to time and keeps the last one that was sound."""
 
-import numpy as np
-
 EVERY = 50  # steps between checks
 
 
@@ -20,16 +18,16 @@ class Guard:
 
     def begin(self, simulation):
         """Keep the initial state."""
-        self._kept = simulation.keep(None)
+        simulation.keep()
 
     def after_step(self, simulation):
         """Check the state and keep it."""
         due = simulation.steps % EVERY == 0 or simulation.steps % self.outputs == 0
         if due or simulation.time >= simulation.case.time:
             simulation.check()
-            self._kept = simulation.keep(self._kept)
+            simulation.keep()
 
     def end(self, simulation, error):
         """Go back to the last sound state if the run diverged."""
         if isinstance(error, Diverged):
-            simulation.restore(self._kept)
+            simulation.restore()

@@ -1,9 +1,9 @@
 """Uniform generalised interpolation: a hat function averaged over a particle of constant size.
 
 Source: Bardenhagen and Kober (2004), CMES 5(6), eq. (31), written here without cases: with ξ the
-offset from the middle node and t = clamp(l − ξ, 0, 2l), the left node has S = t²/(4l) + max(−ξ−l, 0)
-and S' = −t/(2l), the right node follows by symmetry and the middle one by partition of unity. Holds
-for l ≤ ½ cell.
+offset from the middle node and t = clamp(l − ξ, 0, 2l), the left node has
+S = t²/(4l) + max(−ξ−l, 0) and S' = −t/(2l), the right node follows by symmetry and the middle one
+by partition of unity. Holds for l ≤ ½ cell.
 """
 
 from typing import NamedTuple

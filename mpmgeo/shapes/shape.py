@@ -13,6 +13,8 @@ from mpmgeo.numerics.dispatch import generic
 def stencil(shape, s, l):
     """Return the S weights and then the S slopes of the nodes around a particle, one flat tuple.
 
+    Written with + − * / min and max alone, it takes numbers or the vector of all three axes.
+
     `s` in [−½, ½]: position of the particle relative to the middle of its S nodes, in cells. `l`:
     half of the particle's size, in cells, at most ½. Slopes are per cell.
     """

@@ -1,8 +1,8 @@
 """The background grid: blocks of 4³ nodes, of which only those exist that particles reach.
 
 Node index I is at origin + I·cell; ghost layers have negative indices and need no storage of their
-own. A block is named by its *corner* c = I >> 2 per axis and by the key of that corner, sortable and
-unique. *Owner* blocks hold particles and own a tile; *active* blocks hold nodes under some tile.
+own. A block is named by its *corner* c = I >> 2 per axis and by the key of that corner, sortable
+and unique. *Owner* blocks hold particles and own a tile; *active* blocks hold nodes under a tile.
 
     above[b, o]   active block that lies o blocks up from owner b   (o = 0 is the owner itself)
     below[a, o]   owner whose tile covers active block a from o blocks down, or −1
@@ -40,7 +40,7 @@ class Mesh(NamedTuple):
 
     @classmethod
     def of(cls, origin, cell, cells):
-        """Return the symbols of a mesh with `cells` cells of size `cell` [m] from `origin` [m] on."""
+        """Return the symbols of a mesh of `cells` cells of size `cell` [m] from `origin` [m] on."""
         inverse = [1.0 / h for h in cell]
         return cls(*map(float, origin), *map(float, cell), *inverse, *map(int, cells))
 
@@ -65,7 +65,7 @@ def _find(table, keys):
 
 
 class Grid:
-    """Blocks, tiles and nodes of one shape's width; `cover` sets them to where the particles are."""
+    """Blocks, tiles and nodes for a shape's width; `cover` puts them where the particles are."""
 
     def __init__(self, mesh: Mesh, width: int):
         self.mesh = mesh
@@ -93,8 +93,8 @@ class Grid:
             self.below = _find(keys, keys_of(self.active_corner[:, None] - self._steps))
         else:
             self.below = np.empty((0, self.reach**3), np.int64)
-        self.tiles = _room(self.tiles, len(keys) * self.record)
-        self.nodes = _room(self.nodes, len(self.active) * NODES * LANES)
+        self.tiles = _room(self.tiles, len(keys) * self.side**3)
+        self.nodes = _room(self.nodes, len(self.active) * NODES)
         self.nodes[:] = 0.0
         _, now, before = np.intersect1d(self.active, old, return_indices=True)
         self.records()[now] = records[before]  # the last velocities, which damping may ask for
@@ -118,7 +118,7 @@ class Grid:
 
 
 def cut(start):
-    """Cut blocks into CHUNKS pieces of equal work, `start` (blocks + 1,) the work before each block.
+    """Cut blocks into CHUNKS pieces of equal work; `start` (blocks + 1,) is the work before each.
 
     Returns the first block of each piece and, last, the number of blocks.
     """
@@ -129,7 +129,7 @@ def cut(start):
 
 
 def _room(buffer, count):
-    """Return a buffer for `count` doubles: the old one if it fits and is not far too large."""
-    if count <= buffer.size <= 2 * count:
+    """Return a buffer for `count` records: the old one if it fits and is not far too large."""
+    if count * LANES <= buffer.size <= 2 * count * LANES:
         return buffer
-    return aligned(count + count // 16)
+    return aligned((count + count // 16) * LANES)

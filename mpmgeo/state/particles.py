@@ -43,10 +43,9 @@ class ParticleSet:
         self.chunk = np.array([0, 1])
 
     def arrays(self):
-        """Return the arrays that are permuted together."""
-        optional = (self.half if isinstance(self.half, np.ndarray) else None, self.force, self.state)
-        always = (self.row, self.x, self.v, self.m, self.V, self.stress)
-        return [a for a in (*always, *optional) if a is not None]
+        """Return the arrays that are permuted together, by name."""
+        names = ("row", "x", "v", "m", "V", "stress", "half", "force", "state")
+        return {name: a for name in names if isinstance(a := getattr(self, name), np.ndarray)}
 
     @property
     def active(self) -> int:

@@ -1,8 +1,8 @@
 """Keep particles sorted by block, moving only those that must move.
 
-When particles change blocks, the blocks' ranges shift a little. A particle whose place still lies in
-its block's new range stays; the others, in order, fill the places that are free. The order depends
-on nothing but the particles, so results are the same for any number of threads.
+When particles change blocks, the blocks' ranges shift a little. A particle whose place still lies
+in its block's new range stays; the others, in order, fill the places that are free. The order
+depends on nothing but the particles, so results are the same for any number of threads.
 """
 
 import numpy as np
@@ -103,7 +103,7 @@ def permute(a, places, origin, rows):
 
 
 def _rows(a):
-    """Return an array as rows of doubles, whatever its eight-byte type, so that one kernel serves."""
+    """Return an array of any eight-byte type as rows of doubles, so that one kernel serves all."""
     return a.reshape(len(a), -1).view(np.float64)
 
 
@@ -148,7 +148,7 @@ def sort(grid, sets, serial):
         places, origin = places[:moves], origin[:moves]
         if moves:
             rows = np.empty(moves * 6)
-            for a in map(_rows, s.arrays()):
+            for a in map(_rows, s.arrays().values()):
                 width = a.shape[1]
                 kernel = permute.serial if serial else permute
                 if moves * width > rows.size:

@@ -36,7 +36,7 @@ class SineMotion:
         return A * ω * np.cos(angle)
 
     def write_record(self, path: Path | str, end: float, interval: float) -> None:
-        """Write the accelerations from 0 to `end` [s], one row every `interval` [s], as a text file."""
+        """Write the accelerations from 0 to `end` [s] every `interval` [s] as a text file."""
         time = np.arange(round(end / interval) + 1) * interval
         rows = np.column_stack([time, self.acceleration(time)])
         np.savetxt(path, rows, fmt="%.8g", delimiter=",", header="t,ax,ay,az", comments="")

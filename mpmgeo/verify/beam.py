@@ -16,7 +16,7 @@ SHEAR_FACTOR = 5 / 6
 
 @dataclass(frozen=True)
 class Cantilever:
-    """Cantilever of length and depth [m] per metre of width, in plane strain: young [Pa], poisson."""
+    """Cantilever of length and depth [m], in plane strain: young [Pa], poisson [-]."""
 
     length: float
     depth: float

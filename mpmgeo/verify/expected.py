@@ -58,11 +58,12 @@ class Comparison:
 
     def __str__(self) -> str:
         e = self.expectation
-        return f"{e.name}: {self.measured:.6g}, expected {e.value:.6g} ± {e.tolerance:.2g} ({e.source})"
+        wanted = f"{e.value:.6g} ± {e.tolerance:.2g} ({e.source})"
+        return f"{e.name}: {self.measured:.6g}, expected {wanted}"
 
 
 def expectations(case) -> list[Expectation]:
-    """Return what the case expects, earliest first; raises TypeError for missing or unknown keys."""
+    """Return what the case expects, earliest first; TypeError for missing or unknown keys."""
     found = [
         Expectation(name=name, **{"time": case.time} | entry)
         for name, entry in (case.expected or {}).items()

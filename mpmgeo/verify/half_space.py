@@ -14,7 +14,7 @@ import numpy as np
 
 @dataclass(frozen=True)
 class HalfSpace:
-    """Half-space below z = 0: young [Pa], poisson [-], force [N] that presses down at the origin."""
+    """Half-space below z = 0: young [Pa], poisson [-], force [N] pressing down at the origin."""
 
     young: float
     poisson: float

@@ -1,14 +1,16 @@
 """The solver's twin: a step of the material point method written down as its equations stand.
 
 One particle after the other, on a dense grid, in one thread. Tests compare the solver with it and
-benchmarks measure against it.
+benchmarks measure against it. Capitals are nodal: mass M, momentum P, force F, velocity U and
+acceleration A.
 
-    m = Σ m S,    p = Σ m v S,    f = Σ (f S − V σ ∇S),    v = p/m,    a = f/m          on nodes
-    v ← v + h Σ a S,    x ← x + Δt Σ v S,    L = Σ v ⊗ ∇S,    Δε = ½(L + Lᵀ) Δt     on particles
+    M = Σ m S,   P = Σ m v S,   F = Σ (f S − V σ ∇S),   A = F/M,   U = P/M + h A
+    v ← v + h Σ A S,   x ← x + Δt Σ U S,   L = Σ U ⊗ ∇S,   Δε = ½(L + Lᵀ) Δt
 
 Source: Sulsky, Zhou and Schreyer (1995), Comput. Phys. Commun. 87, 236–252, sections 3 and 4.
 """
 
+from math import floor, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -18,6 +20,8 @@ from mpmgeo.materials.law import update_stress
 from mpmgeo.mpm.schemes import musl, usf, usl
 from mpmgeo.numerics.jit import compiled, inlined
 from mpmgeo.shapes.shape import stencil, width
+
+ZERO = (0.0, 0.0, 0.0)
 
 
 class Box(NamedTuple):
@@ -29,37 +33,62 @@ class Box(NamedTuple):
     ghosts: int
 
 
-class Particles(NamedTuple):
-    """The particles in row order."""
-
-    row: np.ndarray  # (n,) those that take part
-    x: np.ndarray  # (n, 3) position [m]
-    v: np.ndarray  # (n, 3) velocity [m/s]
-    m: np.ndarray  # (n,) mass [kg]
-    V: np.ndarray  # (n,) volume [m³]
-    stress: np.ndarray  # (n, 6) [Pa]
-    half: np.ndarray  # (n, 3) half-sizes in cells
-    force: np.ndarray  # (n, 3) external force [N]
+@inlined
+def plus(a, s, b):
+    """Return the vector a + s b."""
+    return a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]
 
 
 @inlined
-def place(shape, box, x, half, p, axis):
-    """Return the first node of particle p along an axis, and its weights and slopes per cell."""
-    g = (x[p, axis] - box.origin[axis]) / box.cell[axis]
+def size(a):
+    """Return the length of a vector."""
+    return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2])
+
+
+@inlined
+def vector(field, n):
+    """Return the vector of node n."""
+    return field[n[0], n[1], n[2], 0], field[n[0], n[1], n[2], 1], field[n[0], n[1], n[2], 2]
+
+
+@inlined
+def add(field, n, a):
+    """Add a vector to node n."""
+    for c in range(3):
+        field[n[0], n[1], n[2], c] += a[c]
+
+
+@inlined
+def stencil_along(axis, shape, box, half, x, p):
+    """Return the first node of particle p along an axis, its weights and slopes per cell."""
     S = width(shape)
-    first = int(np.floor(g - 0.5 * (S - 2)))
+    g = (x[p, axis] - box.origin[axis]) / box.cell[axis]
+    first = floor(g - 0.5 * (S - 2))
     return first + box.ghosts, stencil(shape, g - first - 0.5 * (S - 1), half[p, axis])
 
 
+@inlined
+def slopes(wx, wy, wz, i, j, k, cell):
+    """Return ∇S of node (i, j, k) of a stencil."""
+    S = len(wx) // 2
+    return (
+        wx[S + i] * wy[j] * wz[k] / cell[0],
+        wx[i] * wy[S + j] * wz[k] / cell[1],
+        wx[i] * wy[j] * wz[S + k] / cell[2],
+    )
+
+
 @compiled
-def scatter(shape, box, rows, x, v, m, V, stress, half, force, M, P, F):
-    """Add mass and momentum to the nodal M and P, forces to F; what is None is left out."""
+def scatter(shape, box, rows, half, x, v, m, V, stress, force, M, P, F):
+    """Add mass and momentum to the nodes, and force; what is None is left out."""
     S = width(shape)
-    hx, hy, hz = box.cell
     for p in rows:
-        I, wx = place(shape, box, x, half, p, 0)
-        J, wy = place(shape, box, x, half, p, 1)
-        K, wz = place(shape, box, x, half, p, 2)
+        I, wx = stencil_along(0, shape, box, half, x, p)
+        J, wy = stencil_along(1, shape, box, half, x, p)
+        K, wz = stencil_along(2, shape, box, half, x, p)
+        mass = m[p]
+        momentum = plus(ZERO, mass, (v[p, 0], v[p, 1], v[p, 2]))
+        f = force[p, 0], force[p, 1], force[p, 2]
         xx, yy, zz = V[p] * stress[p, 0], V[p] * stress[p, 1], V[p] * stress[p, 2]
         xy, yz, xz = V[p] * stress[p, 3], V[p] * stress[p, 4], V[p] * stress[p, 5]
         for i in range(S):
@@ -68,68 +97,203 @@ def scatter(shape, box, rows, x, v, m, V, stress, half, force, M, P, F):
                     n = I + i, J + j, K + k
                     w = wx[i] * wy[j] * wz[k]
                     if M is not None:
-                        M[n] += w * m[p]
-                        for a in range(3):
-                            P[n][a] += w * m[p] * v[p, a]
+                        M[n] += w * mass
+                        add(P, n, plus(ZERO, w, momentum))
                     if F is not None:
-                        gx = wx[S + i] * wy[j] * wz[k] / hx
-                        gy = wx[i] * wy[S + j] * wz[k] / hy
-                        gz = wx[i] * wy[j] * wz[S + k] / hz
-                        f = F[n]
-                        f[0] += w * force[p, 0] - (xx * gx + xy * gy + xz * gz)
-                        f[1] += w * force[p, 1] - (xy * gx + yy * gy + yz * gz)
-                        f[2] += w * force[p, 2] - (xz * gx + yz * gy + zz * gz)
+                        gx, gy, gz = slopes(wx, wy, wz, i, j, k, box.cell)
+                        total = plus(ZERO, w, f)
+                        total = plus(total, -gx, (xx, xy, xz))
+                        total = plus(total, -gy, (xy, yy, yz))
+                        total = plus(total, -gz, (xz, yz, zz))
+                        add(F, n, total)
 
 
 @compiled
-def gather(shape, box, law, rows, x, v, V, stress, half, A, drift, U, dt, h):
-    """Change v by the nodal A, x by the nodal drift, strain with the nodal U; None is left out."""
+def update_nodes(h, local, cutoff, free, M, P, F, U, A):
+    """Make velocities of the nodal momentum and, unless the force is None, integrate it over h.
+
+    `free`: 0 for components that a plane holds; `local`: share of local damping, None without.
+    """
+    for n in np.ndindex(M.shape):
+        u = a = ZERO
+        if M[n] > cutoff:
+            u = held(free, n, plus(ZERO, 1.0 / M[n], vector(P, n)))
+            if F is not None:
+                a = held(free, n, plus(ZERO, 1.0 / M[n], vector(F, n)))
+                if local is not None and size(u) > 0.0:
+                    a = held(free, n, plus(a, -local * size(a) / size(u), u))
+                u = plus(u, h, a)
+        for c in range(3):
+            U[n[0], n[1], n[2], c] = u[c]
+            if F is not None:
+                A[n[0], n[1], n[2], c] = a[c]
+
+
+@inlined
+def held(free, n, a):
+    """Return what the planes leave of a vector of node n."""
+    f = vector(free, n)
+    return f[0] * a[0], f[1] * a[1], f[2] * a[2]
+
+
+@compiled
+def gather(shape, box, law, rows, half, x, v, V, stress, A, drift, U, dt, h):
+    """Change v by the nodal A, move x with `drift`, strain with U; what is None is left out.
+
+    `law` None: no strain.
+    """
     S = width(shape)
-    dv, dx, L = np.zeros(3), np.zeros(3), np.zeros((3, 3))
     for p in rows:
-        I, wx = place(shape, box, x, half, p, 0)
-        J, wy = place(shape, box, x, half, p, 1)
-        K, wz = place(shape, box, x, half, p, 2)
-        dv[:], dx[:], L[:] = 0.0, 0.0, 0.0
+        I, wx = stencil_along(0, shape, box, half, x, p)
+        J, wy = stencil_along(1, shape, box, half, x, p)
+        K, wz = stencil_along(2, shape, box, half, x, p)
+        a = u = dx = dy = dz = ZERO
         for i in range(S):
             for j in range(S):
                 for k in range(S):
                     n = I + i, J + j, K + k
                     w = wx[i] * wy[j] * wz[k]
                     if A is not None:
-                        for a in range(3):
-                            dv[a] += w * A[n][a]
+                        a = plus(a, w, vector(A, n))
                     if drift is not None:
-                        for a in range(3):
-                            dx[a] += w * drift[n][a]
+                        u = plus(u, w, vector(drift, n))
                     if law is not None:
-                        gx = wx[S + i] * wy[j] * wz[k] / box.cell[0]
-                        gy = wx[i] * wy[S + j] * wz[k] / box.cell[1]
-                        gz = wx[i] * wy[j] * wz[S + k] / box.cell[2]
-                        for a in range(3):
-                            u = U[n][a]
-                            L[a, 0] += u * gx
-                            L[a, 1] += u * gy
-                            L[a, 2] += u * gz
-        for a in range(3):
-            v[p, a] += h * dv[a]
-            x[p, a] += dt * dx[a]
+                        gx, gy, gz = slopes(wx, wy, wz, i, j, k, box.cell)
+                        nodal = vector(U, n)
+                        dx, dy, dz = plus(dx, gx, nodal), plus(dy, gy, nodal), plus(dz, gz, nodal)
+        for c in range(3):
+            v[p, c] += h * a[c]
+            x[p, c] += dt * u[c]
         if law is not None:
-            strain(law, L, V, stress, p, dt)
+            strain(law, dx, dy, dz, V, stress, p, dt)
 
 
 @inlined
-def strain(law, L, V, stress, p, dt):
+def strain(law, dx, dy, dz, V, stress, p, dt):
+    """Update volume and stress of particle p; `dx` … are the columns of its velocity gradient."""
     ε = (
-        L[0, 0] * dt,
-        L[1, 1] * dt,
-        L[2, 2] * dt,
-        0.5 * (L[0, 1] + L[1, 0]) * dt,
-        0.5 * (L[1, 2] + L[2, 1]) * dt,
-        0.5 * (L[0, 2] + L[2, 0]) * dt,
+        dx[0] * dt,
+        dy[1] * dt,
+        dz[2] * dt,
+        0.5 * (dx[1] + dy[0]) * dt,
+        0.5 * (dy[2] + dz[1]) * dt,
+        0.5 * (dz[0] + dx[2]) * dt,
     )
     V[p] *= 1.0 + (ε[0] + ε[1] + ε[2])
     s = stress[p]
     new = update_stress(law, (s[0], s[1], s[2], s[3], s[4], s[5]), ε, (), dt)
     for c in range(6):
         stress[p, c] = new[c]
+
+
+@compiled
+def leave(box, x, active):
+    """Take out the particles that are not in the mesh; return how many."""
+    left = 0
+    for p in range(len(x)):
+        for c in range(3):
+            g = (x[p, c] - box.origin[c]) / box.cell[c]
+            if active[p] and not (g >= 0.0 and g <= box.cells[c]):
+                active[p] = False
+                left += 1
+    return left
+
+
+def free_components(box, planes):
+    """Return 0 for nodal components (nx, ny, nz, 3) that a plane holds, 1 for the others."""
+    free = np.ones((*(n + 1 + 2 * box.ghosts for n in box.cells), 3))
+    kinds = ((planes.x0, planes.xn), (planes.y0, planes.yn), (planes.z0, planes.zn))
+    for axis, (lower, upper) in enumerate(kinds):
+        nodes = np.moveaxis(free, axis, 0)
+        first, last = nodes[: box.ghosts + 1], nodes[box.ghosts + box.cells[axis] :]
+        for slab, kind in ((first, lower), (last, upper)):
+            if kind == FIXED:
+                slab[:] = 0.0
+            elif kind == SLIDING:
+                slab[..., axis] = 0.0
+    return free
+
+
+class PlainSolver:
+    """A copy of a solver's state that steps on by itself; its arrays are in row order.
+
+    Raises ValueError for a moving base, point loads, damping other than local, laws with variables.
+    """
+
+    def __init__(self, solver):
+        if solver.base or solver.point_loads or solver.delayed or solver.settles:
+            raise ValueError("no moving base, point loads or damping but local in the plain solver")
+        if any(s.law.STATE for s in solver.sets):
+            raise ValueError("no laws with variables in the plain solver")
+        self.shape, self.time_step, self.steps = solver.shape, solver.time_step, solver.steps
+        self.local, self.cutoff = solver.local, solver.cutoff
+        mesh = solver.grid.mesh
+        self.box = Box(mesh[:3], mesh[3:6], mesh[9:], ghosts=(width(solver.shape) + 1) // 2)
+        self.free = free_components(self.box, solver.planes)
+        self.M = np.zeros(self.free.shape[:3])
+        self.P, self.F, self.U, self.A = (np.zeros_like(self.free) for _ in range(4))
+        self._copy(solver)
+        self._scheme = {usl: self._usl, musl: self._musl, usf: self._usf}[solver.scheme]
+
+    def _copy(self, solver):
+        n = solver.count
+        self.m, self.V, self.stress = np.zeros(n), np.zeros(n), np.zeros((n, 6))
+        self.x, self.v, self.force, self.half = (np.zeros((n, 3)) for _ in range(4))
+        self.active = np.zeros(n, bool)
+        for s in solver.sets:
+            self.active[s.row[: s.active]] = True
+            self.m[s.row], self.V[s.row], self.half[s.row] = s.m, s.V, s.half
+            self.x[s.row], self.v[s.row], self.stress[s.row] = s.x, s.v, s.stress
+            self.force[s.row] = s.m[:, None] * solver.gravity
+            if s.force is not None:
+                self.force[s.row] += s.force
+        self.sets = [(s.law, np.sort(s.row[: s.active])) for s in solver.sets]
+
+    def step(self):
+        """Advance by one time step; the first one changes velocities by half a step."""
+        if leave(self.box, self.x, self.active):
+            self.sets = [(law, rows[self.active[rows]]) for law, rows in self.sets]
+        self._scheme(0.5 * self.time_step if self.steps == 0 else self.time_step)
+        self.steps += 1
+
+    def _usl(self, h):
+        self._scatter(self.M, self.P, self.F)
+        self._update_nodes(h, self.F)
+        self._gather(h, self.A, self.U, strains=True)
+
+    def _musl(self, h):
+        self._scatter(self.M, self.P, self.F)
+        self._update_nodes(h, self.F)
+        self._gather(h, self.A, None)
+        drift = self.U.copy()
+        self._scatter(self.M, self.P, None)
+        self._update_nodes(h, None)
+        self._gather(h, None, drift, strains=True)
+
+    def _usf(self, h):
+        self._scatter(self.M, self.P, None)
+        self._update_nodes(h, None)
+        self._gather(h, None, None, strains=True)
+        self._scatter(None, None, self.F)
+        self._update_nodes(h, self.F)
+        self._gather(h, self.A, self.U)
+
+    def _scatter(self, M, P, F):
+        for nodal in (M, P, F):
+            if nodal is not None:
+                nodal[:] = 0.0
+        for _, rows in self.sets:
+            scatter(
+                *(self.shape, self.box, rows, self.half, self.x, self.v, self.m),
+                *(self.V, self.stress, self.force, M, P, F),
+            )
+
+    def _update_nodes(self, h, F):
+        update_nodes(h, self.local, self.cutoff, self.free, self.M, self.P, F, self.U, self.A)
+
+    def _gather(self, h, A, drift, strains=False):
+        for law, rows in self.sets:
+            gather(
+                *(self.shape, self.box, law if strains else None, rows, self.half, self.x, self.v),
+                *(self.V, self.stress, A, drift, self.U, self.time_step, h),
+            )

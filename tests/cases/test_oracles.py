@@ -29,7 +29,7 @@ pytestmark = pytest.mark.skipif(not ORACLES.is_dir(), reason="needs ../shared/or
 
 @cache
 def results(name):
-    """Return per field the results of both programs (T, N, c), rows matched, and what is round-off."""
+    """Return per field the results of both programs (T, N, c), matched, and what is round-off."""
     folder = ORACLES / name
     expected = np.load(folder / "expected.npz")
     case = mpmgeo.load_case(read(folder / "case.json") | _same(folder))

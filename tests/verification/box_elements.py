@@ -2,12 +2,22 @@
 
 Near the force the solution is singular, which no element can follow. So the displacement is split
 into that of the half-space, exact and singular, and a smooth rest; the elements solve for the rest,
-driven by what the half-space solution leaves on the walls. By symmetry a quarter of the box is enough.
+driven by what the half-space solution leaves on the walls. By symmetry a quarter of the box is
+enough.
 """
 
 import numpy as np
-from skfem import Basis, ElementHex2, ElementVector, FacetBasis, LinearForm, MeshHex
-from skfem import asm, condense, solve
+from skfem import (
+    Basis,
+    ElementHex2,
+    ElementVector,
+    FacetBasis,
+    LinearForm,
+    MeshHex,
+    asm,
+    condense,
+    solve,
+)
 from skfem.models.elasticity import lame_parameters, linear_elasticity
 
 from mpmgeo.verify.half_space import HalfSpace
@@ -24,7 +34,9 @@ class BoxUnderForce:
         mesh = MeshHex.init_tensor(*half, np.linspace(-depth, 0, elements + 1))
         element = ElementVector(ElementHex2())
         self.basis = Basis(mesh, element, intorder=4)
-        stiffness = asm(linear_elasticity(*lame_parameters(ground.young, ground.poisson)), self.basis)
+        stiffness = asm(
+            linear_elasticity(*lame_parameters(ground.young, ground.poisson)), self.basis
+        )
         walls = mesh.facets_satisfying(lambda x: self._on_wall(x).any(axis=0))
         pull = LinearForm(self._pull).assemble(FacetBasis(mesh, element, facets=walls, intorder=6))
         prescribed, values = self._supports()
@@ -40,7 +52,7 @@ class BoxUnderForce:
 
     def _on_wall(self, x):
         extent = np.abs(self.basis.mesh.p).max(axis=1)
-        return np.abs(x) > extent[:, None] * [[1], [1], [1]] - ROUND_OFF
+        return np.abs(x) > extent[:, None] - ROUND_OFF
 
     def _pull(self, v, w):
         """Traction of the half-space solution on the walls, times the test function."""

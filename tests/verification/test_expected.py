@@ -1,9 +1,9 @@
 """The numbers of a case's `expected` key are read, measured and judged."""
 
-import mpmgeo
 import pytest
 from scenes import cuboid, scene
 
+import mpmgeo
 from mpmgeo.verify.expected import compare, expectations
 
 ENTRY = {

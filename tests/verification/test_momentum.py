@@ -11,7 +11,7 @@ def momentum(simulation):
     return simulation.field("mass") @ simulation.field("velocity")
 
 
-# Nodes of the linear shape that hold next to no mass take absurd velocities in a crash; MUSL heals it.
+# Nodes of the linear shape with next to no mass take absurd velocities in a crash; MUSL heals it.
 @pytest.mark.parametrize(
     ("scheme", "shape"), [("USL", "GIMP"), ("MUSL", "GIMP"), ("USF", "GIMP"), ("MUSL", "linear")]
 )
@@ -62,7 +62,7 @@ def test_a_box_slides_on_a_smooth_floor(scheme):
 
 
 def test_a_fixed_floor_stops_the_box():
-    """Shear waves in the box die out; what particles keep is what no node sees."""
+    """Nodes come to rest; particles may keep velocities that cancel out at every node."""
     case = scene(
         [30, 6, 8],
         0.1,
@@ -73,7 +73,7 @@ def test_a_fixed_floor_stops_the_box():
         boundary_conditions={"plane_Z0": "fixed"},
     )
     simulation = simulate(case).run()
-    mass = simulation.field("mass").sum()
-    assert np.abs(momentum(simulation)).max() < 1e-3 * 0.5 * mass
-    assert np.abs(simulation.nodes().velocity).max() < 1e-2 * 0.5
+    nodes = simulation.nodes()
+    start = 0.5 * nodes.mass.sum() * 0.5**2
+    assert 0.5 * nodes.mass @ (nodes.velocity**2).sum(axis=1) < 1e-3 * start
     assert np.abs(simulation.field("displacement")[:, 0]).max() < 1e-3

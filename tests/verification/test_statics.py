@@ -1,4 +1,4 @@
-"""Static states reached with kinetic damping: a column under its weight, a cantilever under load."""
+"""Static states by kinetic damping: a column under its weight, a cantilever under load."""
 
 import numpy as np
 import pytest
@@ -6,7 +6,6 @@ from scenes import cuboid, initial_position, scene, simulate
 
 from mpmgeo.verify.beam import Cantilever
 from mpmgeo.verify.column import Column
-
 
 # Kinetic damping stops the particles; USF then never sees the strain of the step before, so that
 # its displacements are too large by an error of first order in the time step.
@@ -42,7 +41,7 @@ def test_column_under_its_weight(scheme):
 
 
 def test_cantilever_under_end_load():
-    """A load shared by the particles of the last cells bends the beam as the theory says, to 2 %."""
+    """A load shared by the particles of the last cells bends the beam as in theory, to 2 %."""
     beam = Cantilever(length=2.0, depth=0.4, young=100e6, poisson=0.0)
     cell, load = 0.1, 4000.0
     case = scene(
@@ -50,9 +49,7 @@ def test_cantilever_under_end_load():
         cell,
         [cuboid([0, 0, 0], [beam.length, cell, beam.depth])],
         origin=[0.0, 0.0, -0.2],
-        materials=[
-            {"type": "elastic", "id": 1, "density": 2000.0, "young": 100e6, "poisson": 0.0}
-        ],
+        materials=[{"type": "elastic", "id": 1, "density": 2000.0, "young": 100e6, "poisson": 0.0}],
         time=1.0,
         critical_time_step_multiplier=0.5,
         damping={"type": "kinetic"},

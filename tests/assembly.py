@@ -1,0 +1,92 @@
+"""A solver made of arrays, without a case."""
+
+import numpy as np
+
+from mpmgeo.boundaries.planes import BoundaryConditions, Planes
+from mpmgeo.materials.elastic import Elastic
+from mpmgeo.mpm.schemes import SCHEMES
+from mpmgeo.mpm.solver import Solver
+from mpmgeo.shapes import SHAPES
+from mpmgeo.state.grid import Grid, Mesh
+from mpmgeo.state.particles import ParticleSet, Population
+
+RUBBER = Elastic(id=1, density=1000.0, young=1e6, poisson=0.25)
+SIDES = ("plane_X0", "plane_Y0", "plane_Z0", "plane_Xn", "plane_Yn", "plane_Zn")
+
+
+def planes(default="free", **kinds):
+    """Return the symbols of six planes of one kind, but for those that are named."""
+    return Planes.of(BoundaryConditions(**(dict.fromkeys(SIDES, default) | kinds)))
+
+
+def assemble(
+    position,
+    *,
+    velocity=(0.0, 0.0, 0.0),
+    stress=None,
+    mass=1.0,
+    volume=0.125,
+    cells=(12, 12, 12),
+    cell=(1.0, 1.0, 1.0),
+    origin=(0.0, 0.0, 0.0),
+    shape=SHAPES["GIMP"],
+    half=(0.25, 0.25, 0.25),
+    scheme="USL",
+    law=RUBBER.symbols,
+    split=1,
+    **more,
+):
+    """Return the solver of particles at `position` (n, 3) in a mesh with free planes.
+
+    `split`: number of particle sets among which the particles are dealt in turn. `more`: fields of
+    Solver; a time step of 1 ms, no gravity and no mass cut-off if not said.
+    """
+    position = np.array(position, float).reshape(-1, 3)
+    n = len(position)
+    velocity = np.array(np.broadcast_to(velocity, (n, 3)), float)
+    stress = np.zeros((n, 6)) if stress is None else np.array(stress, float)
+    mass = np.array(np.broadcast_to(mass, n), float)
+    variables = len(law.STATE)
+    sets = []
+    for number in range(split):
+        rows = np.arange(number, n, split)
+        sets.append(
+            ParticleSet(
+                law=law,
+                row=rows,
+                x=position[rows],
+                v=velocity[rows],
+                m=mass[rows],
+                V=np.full(len(rows), float(volume)),
+                stress=stress[rows],
+                half=half if isinstance(half, tuple) else half[rows],
+                state=np.zeros((len(rows), variables)) if variables else None,
+            )
+        )
+    size = np.full((n, 3), 0.5)
+    body, material = np.ones(n, np.uint32), np.ones(n, np.int64)
+    fields = {"planes": planes(), "time_step": 1e-3, "gravity": (0.0, 0.0, 0.0)} | more
+    return Solver(
+        grid=Grid(Mesh.of(origin, cell, cells), shape.width),
+        sets=sets,
+        population=Population(position, size, body, material, None),
+        shape=shape,
+        scheme=SCHEMES[scheme],
+        **fields,
+    )
+
+
+def by_row(solver, name):
+    """Return an array of all sets in row order."""
+    out = np.empty((solver.count, *getattr(solver.sets[0], name).shape[1:]))
+    for s in solver.sets:
+        out[s.row] = getattr(s, name)
+    return out
+
+
+def nodes(solver):
+    """Return index (k, 3), mass (k,), velocity (k, 3), acceleration (k, 3) of nodes with mass."""
+    records = solver.grid.records().reshape(-1, 8)
+    used = records[:, 6] != 0
+    index = solver.grid.indices().reshape(-1, 3)[used]
+    return index, records[used, 6], records[used, :3], records[used, 3:6]

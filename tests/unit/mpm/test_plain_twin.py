@@ -1,0 +1,111 @@
+"""The solver against its plain twin, in scenes where everything happens within a few steps."""
+
+import numpy as np
+import pytest
+
+import mpmgeo
+from mpmgeo.mpm.schemes import SCHEMES
+from mpmgeo.shapes import SHAPES
+from mpmgeo.verify.plain import PlainSolver
+
+STEPS = 30
+FIELDS = {"position": "x", "velocity": "v", "stress": "stress", "volume": "V"}
+
+
+def scene(**keys):
+    """Two bodies of two materials that meet, spin and hit three walls, in a mesh of flat cells."""
+    soft = {"type": "elastic", "density": 1000.0, "young": 2e6, "poisson": 0.3}
+    stiff = {"type": "elastic", "density": 1800.0, "young": 5e6, "poisson": 0.2}
+    block = {"type": "cuboid", "point_p1": [0.6, -0.3, -1.95], "point_p2": [1.5, 0.3, -1.65]}
+    ball = {"type": "sphere", "center": [1.05, 0.0, -1.44], "diameter": 0.42}
+    return {
+        "time": 1.0,
+        "time_step": 5e-4,
+        "gravity": [3.0, 0.0, -9.81],
+        "mesh": {
+            "cells_number": [10, 9, 12],
+            "cells_dimension": [0.15, 0.1, 0.075],
+            "origin": [0.3, -0.45, -1.95],
+            "boundary_conditions": {
+                "plane_X0": "sliding",
+                "plane_Y0": "fixed",
+                "plane_Z0": "fixed",
+                "plane_Xn": "sliding",
+                "plane_Yn": "sliding",
+                "plane_Zn": "free",
+            },
+        },
+        "materials": [soft | {"id": 1}, stiff | {"id": 2}],
+        "body": [
+            block | {"material_id": 1, "initial_velocity": [20.0, -10.0, 0.0]},
+            ball | {"material_id": 2, "initial_velocity": [0.0, 10.0, -15.0]},
+        ],
+    } | keys
+
+
+def both(case, small=True):
+    """Return a simulation with particles in random motion and the twin of its solver."""
+    simulation = mpmgeo.Simulation(mpmgeo.load_case(case))
+    simulation.solver.small = small
+    random = np.random.default_rng(7)
+    velocity = simulation.field("velocity")
+    simulation.assign("velocity", velocity + random.uniform(-3, 3, velocity.shape))
+    simulation.assign("stress", random.uniform(-1e4, 1e4, (len(velocity), 6)))
+    return simulation, PlainSolver(simulation.solver)
+
+
+def assert_same_steps(simulation, twin, steps=STEPS):
+    """Step both, then compare all arrays in relation to their largest entry."""
+    for _ in range(steps):
+        simulation.step()
+        twin.step()
+    np.testing.assert_array_equal(simulation.field("active"), twin.active)
+    for key, name in FIELDS.items():
+        expected = getattr(twin, name)
+        found = simulation.field(key)
+        np.testing.assert_allclose(
+            found, expected, rtol=0, atol=1e-10 * np.abs(expected).max(), err_msg=key
+        )
+
+
+@pytest.mark.parametrize("small", [True, False], ids=["serial", "threaded"])
+@pytest.mark.parametrize("scheme", SCHEMES)
+@pytest.mark.parametrize("shape", SHAPES)
+def test_agree(shape, scheme, small):
+    case = scene(shape_function=shape, stress_scheme_update=scheme)
+    simulation, twin = both(case, small)
+    start = twin.x.copy()
+    assert_same_steps(simulation, twin)
+    block = 4 * twin.box.cell[0]
+    crossed = np.floor((twin.x[:, 0] - 0.3) / block) != np.floor((start[:, 0] - 0.3) / block)
+    assert crossed.sum() > 20
+
+
+def test_agree_with_damping_loads_mixed_sizes_and_departures():
+    case = scene(damping={"type": "local", "value": 0.3})
+    case["mesh"]["boundary_conditions"] |= {"plane_X0": "free", "plane_Yn": "free"}
+    case["body"][1] |= {"material_id": 1, "particles_per_direction": [1, 3, 2]}
+    case["body"][1]["initial_velocity"] = [0.0, 40.0, -15.0]
+    case["body"].append(case["body"][1] | {"material_id": 2, "center": [0.6, 0.2, -1.4]})
+    case["load_distributed_box"] = [
+        {"point_p1": [0.6, -0.3, -1.8], "point_p2": [0.9, 0.3, -1.6], "load": [0.0, 50.0, -90.0]}
+    ]
+    simulation, twin = both(case)
+    assert isinstance(simulation.solver.sets[0].half, np.ndarray)
+    assert simulation.solver.sets[0].force is not None
+    assert_same_steps(simulation, twin)
+    assert 10 < twin.active.sum() < len(twin.active) - 10
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [
+        {"nodal_point_load": [[[0.75, 0.0, -1.65], [0.0, 0.0, -1.0]]]},
+        {"damping": {"type": "kinetic"}},
+        {"damping": {"type": "local", "value": 0.1}, "compatibility": "mpm-geomechanics"},
+    ],
+    ids=["point load", "kinetic damping", "delayed damping"],
+)
+def test_twin_refuses_what_it_lacks(keys):
+    with pytest.raises(ValueError, match="plain solver"):
+        both(scene(**keys))

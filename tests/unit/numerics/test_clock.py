@@ -1,0 +1,16 @@
+from time import sleep
+
+from mpmgeo.numerics.clock import Clock
+
+
+def test_laps_add_up_by_stage():
+    clock = Clock()
+    sleep(0.05)
+    clock.begin()
+    for _ in range(2):
+        sleep(0.01)
+        clock.lap("scatter")
+    clock.lap("gather")
+    assert list(clock.seconds) == ["scatter", "gather"]
+    assert clock.seconds["scatter"] >= 0.02
+    assert clock.seconds["gather"] < 0.02

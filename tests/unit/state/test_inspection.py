@@ -1,0 +1,73 @@
+"""Kinetic energy and the first particle that is not sound."""
+
+import numpy as np
+import pytest
+from assembly import assemble
+
+from mpmgeo.state.inspection import first_unsound, kinetic_energy
+from mpmgeo.state.sorting import sort
+
+BOTH = pytest.mark.parametrize("serial", [True, False])
+
+
+@pytest.fixture
+def particles():
+    """A sorted set of 200 particles, ten of which have left the mesh."""
+    random = np.random.default_rng(3)
+    position = random.uniform(0, 12, (200, 3))
+    position[::20] = -5.0
+    velocity, mass = random.normal(size=(200, 3)), random.uniform(1, 2, 200)
+    solver = assemble(position, velocity=velocity, mass=mass)
+    sort(solver.grid, solver.sets, True)
+    return solver.sets[0]
+
+
+@BOTH
+def test_energy_of_the_active_particles(particles, serial):
+    s = particles
+    expected = 0.5 * np.sum(s.m[:190] * (s.v[:190] ** 2).sum(axis=1))
+    assert kinetic_energy(s, serial) == pytest.approx(expected, rel=1e-13)
+
+
+def test_energy_has_the_same_bits_for_any_threads(particles, threads):
+    energies = set()
+    for count in (1, 2):
+        threads(count)
+        energies.add(kinetic_energy(particles, False))
+    assert len(energies) == 1
+
+
+@BOTH
+def test_sound_particles(particles, serial):
+    particles.stress[:] = 1e100
+    assert first_unsound(particles, 100.0, serial) == -1
+
+
+@BOTH
+@pytest.mark.parametrize("array", ["x", "v", "stress"])
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+def test_first_bad_number_is_found(particles, array, value, serial):
+    """In any component; fast arithmetic must not delete the test."""
+    values = getattr(particles, array)
+    for component in range(values.shape[1]):
+        kept = values[57:, component].copy()
+        values[57, component] = values[130, component] = value
+        assert first_unsound(particles, 100.0, serial) == 57
+        values[57:, component] = kept
+
+
+@BOTH
+def test_speed_limit(particles, serial):
+    particles.v[88] = [0.0, -101.0, 0.0]
+    assert first_unsound(particles, 100.0, serial) == 88
+    assert first_unsound(particles, 102.0, serial) == -1
+    particles.v[88] = 1e200  # its square is infinite
+    assert first_unsound(particles, 1e100, serial) == 88
+
+
+@BOTH
+def test_particles_that_left_do_not_count(particles, serial):
+    particles.v[190:] = np.nan
+    particles.x[195] = np.nan
+    assert first_unsound(particles, 100.0, serial) == -1
+    assert np.isfinite(kinetic_energy(particles, serial))
