@@ -8,7 +8,7 @@ import numpy as np
 
 from mpmgeo.case.build import build, critical_time_step
 from mpmgeo.mpm.solver import Unsound
-from mpmgeo.output.fields import particle_field
+from mpmgeo.output.particle_fields import particle_field
 from mpmgeo.run.diagnosis import diagnose
 from mpmgeo.run.loop import run
 from mpmgeo.run.watch import Diverged, Guard

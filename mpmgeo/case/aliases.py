@@ -72,6 +72,7 @@ def rename(tree, report):
     _flatten_field_lists(tree, report)
     _drop_automatic(tree)
     _truncate_print(tree, report)
+    _raise_material(tree, report)
 
 
 def places(node, place, path=()) -> Iterator[tuple[tuple, dict]]:
@@ -134,3 +135,13 @@ def _truncate_print(tree, report):
         if isinstance(value, float) and not value.is_integer() and abs(value) < 2**31:
             results["print"] = int(value)
             report.note((*path, "print"), f"{value} is rounded to {int(value)}")
+
+
+def _raise_material(tree, report):
+    """Make one material of all listed particles a key of the body."""
+    for path, body in places(tree, ("body", "*")):
+        listed = body.get("particles")
+        number = listed.get("material_id") if isinstance(listed, dict) else None
+        if isinstance(number, int | float) and not isinstance(number, bool):
+            body.setdefault("material_id", listed.pop("material_id"))
+            report.note((*path, "particles", "material_id"), "read as the material of the body")

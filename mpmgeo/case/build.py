@@ -6,14 +6,16 @@ import numpy as np
 
 from mpmgeo.boundaries.base_motion import BaseMotion, BaseMotionAsMPMGeomechanics
 from mpmgeo.boundaries.planes import Planes
+from mpmgeo.case.populate import populate
 from mpmgeo.damping import KineticDamping, LocalDamping
 from mpmgeo.loads.point import GHOSTS
+from mpmgeo.materials.rotation import ROTATIONS
 from mpmgeo.mpm.point_loads import PointLoads
 from mpmgeo.mpm.schemes import SCHEMES
 from mpmgeo.mpm.solver import Solver
 from mpmgeo.shapes import SHAPES
 from mpmgeo.state.grid import Grid, Mesh
-from mpmgeo.state.particles import ParticleSet, Population
+from mpmgeo.state.particles import ParticleSet
 
 CUTOFF = 1e-12  # smallest nodal mass that counts, relative to the smallest particle mass
 HALF = 0.5  # cells: the largest half-size for which the shapes sum to one
@@ -25,13 +27,13 @@ def build(case):
     Raises ValueError for a record or geometry that cannot be used.
     """
     notes = []
-    population, velocity = _populate(case, notes)
+    population, velocity, law = populate(case, notes)
     mesh = Mesh.of(case.mesh.origin, case.mesh.cells_dimension, case.mesh.cells_number)
     shape = SHAPES[case.shape_function]
     legacy = case.compatibility is not None
     damping = case.damping.value if isinstance(case.damping, LocalDamping) else 0.0
     delayed = legacy and case.stress_scheme_update != "USF"
-    sets = _sets(case, population, velocity, notes)
+    sets = _sets(case, population, velocity, law, notes)
     lightest = min((float(s.m.min()) for s in sets), default=0.0)
     solver = Solver(
         grid=Grid(mesh, shape.width),
@@ -55,16 +57,16 @@ def build(case):
 def critical_time_step(case, velocity):
     """Return the time [s] in which a wave crosses a cell, particles moving at `velocity` (n, 3).
 
-    The smallest cell size over the largest wave speed of a material in use plus particle speed; for
-    MPM-Geomechanics the mean cell size over the largest wave speed of all materials.
+    The shortest of the materials in use, in the smallest cell size; for MPM-Geomechanics the mean
+    cell size over the largest wave speed of all materials.
     """
     cell = case.mesh.cells_dimension
     if case.compatibility is not None:
         return sum(cell) / 3 / max(law.sound_speed() for law in case.materials)
-    used = {body.material_id for body in case.body if body.active}
-    speed = max((law.sound_speed() for law in case.materials if law.id in used), default=0.0)
+    used = {number for body in case.body if body.active for number in body.materials}
     fastest = np.sqrt((velocity**2).sum(axis=1).max(initial=0.0))
-    return min(cell) / (speed + fastest) if speed + fastest > 0 else inf
+    laws = [law for law in case.materials if law.id in used]
+    return min((law.critical_time_step(min(cell), fastest) for law in laws), default=inf)
 
 
 def time_step(case, velocity):
@@ -74,43 +76,21 @@ def time_step(case, velocity):
     return case.critical_time_step_multiplier * critical_time_step(case, velocity)
 
 
-def _populate(case, notes):
-    """Return the particles of all bodies in row order, and their velocities (n, 3) [m/s]."""
-    cell = np.array(case.mesh.cells_dimension)
-    bodies = [body for body in case.body if body.active]
-    clouds = [body.generate(cell) for body in bodies]
-    for number, cloud in enumerate(clouds, 1):
-        notes += [f"body {number}: {note}" for note in cloud.notes]
-    counts = [len(cloud.position) for cloud in clouds]
-    position = np.concatenate([np.empty((0, 3)), *(cloud.position for cloud in clouds)])
-    force = None
-    if case.load_distributed_box:
-        force = sum(load.particle_force(position) for load in case.load_distributed_box)
-    population = Population(
-        position=position,
-        size=np.concatenate([np.empty((0, 3)), *(cloud.size for cloud in clouds)]),
-        body=np.repeat(np.arange(1, len(bodies) + 1, dtype=np.uint32), counts),
-        material=np.repeat(np.array([b.material_id for b in bodies], dtype=np.int64), counts),
-        force=force,
-    )
-    velocity = np.repeat(np.array([b.initial_velocity for b in bodies], float), counts, axis=0)
-    return population, velocity.reshape(-1, 3)
-
-
-def _sets(case, population, velocity, notes):
+def _sets(case, population, velocity, laws, notes):
     """Return a particle set for each material in use."""
     cell = np.array(case.mesh.cells_dimension)
     sets = []
-    for law in case.materials:
-        rows = np.flatnonzero(population.material == law.id)
+    for index, law in enumerate(case.materials):
+        rows = np.flatnonzero(laws == index)
         if not len(rows):
             continue
         volume = population.size[rows].prod(axis=1)
-        symbols = law.symbols
+        symbols = law.symbols if case.compatibility is None else law.symbols_as_mpm_geomechanics
         variables = len(symbols.STATE)
         sets.append(
             ParticleSet(
                 law=symbols,
+                rotation=ROTATIONS[law.objective_rate],
                 row=rows,
                 x=population.position[rows],
                 v=velocity[rows],

@@ -19,14 +19,14 @@ SLACK = 1e-9
 
 def check(tree, parts, report):
     """Report contradictions between the keys of a tree; `parts` holds what could be made of it."""
-    _check_materials(tree, report)
-    _check_bodies(tree, parts, report)
+    sound = _check_bodies(tree, parts, report)
+    _check_materials(tree, sound, report)
     _check_point_loads(tree, parts, report)
     _check_steps(tree, parts, report)
     _check_earthquake(parts, report)
 
 
-def _check_materials(tree, report):
+def _check_materials(tree, sound, report):
     defined = {}
     for path, law in places(tree, ("materials", "*")):
         number = law.get("id")
@@ -34,13 +34,20 @@ def _check_materials(tree, report):
             return
         if number in defined:
             first = report.where(defined[number])
-            report.warn((*path, "id"), f"{shown(number)} is taken by {first}, which counts")
+            counts = "counts, but for single particles, which take the last one"
+            report.warn((*path, "id"), f"{shown(number)} is taken by {first}, which {counts}")
         defined.setdefault(number, path)
-    for path, body in places(tree, ("body", "*")):
-        here, wanted = (*path, "material_id"), body.get("material_id")
-        if defined and _is_number(wanted) and wanted not in defined:
+    wanted = [
+        ((*path, "material_id"), body.get("material_id"))
+        for path, body in places(tree, ("body", "*"))
+    ]
+    wanted += [
+        ((*path, *keys), number) for path, body in sound for number, keys in body.materials.items()
+    ]
+    for here, number in wanted:
+        if defined and _is_number(number) and number not in defined:
             known = ", ".join(map(shown, sorted(defined)))
-            report.error(here, f"{shown(wanted)} is no id of a material; defined: {known}")
+            report.error(here, f"{shown(number)} is no id of a material; defined: {known}")
 
 
 def _is_number(value):
@@ -48,17 +55,20 @@ def _is_number(value):
 
 
 def _check_bodies(tree, parts, report):
+    """Report what keeps bodies from being made; return path and object of the active others."""
     bodies = [body for _, body in places(tree, ("body", "*"))]
     if bodies and all(body.get("active") is False for body in bodies):
         report.error(("body",), "no body is active")
-    mesh = parts.get(("mesh",))
+    mesh, sound = parts.get(("mesh",)), []
     for path, _ in places(tree, ("body", "*")):
         body = parts.get(path)
-        if mesh and body and body.active and hasattr(body, "lattice"):
-            try:
-                body.lattice(np.array(mesh.cells_dimension))
-            except ValueError as error:
-                report.error(path, str(error))
+        if mesh is None or body is None or not body.active:
+            continue
+        complaints = list(body.complaints(np.array(mesh.cells_dimension)))
+        for keys, message in complaints:
+            report.error((*path, *keys), message)
+        sound += [] if complaints else [(path, body)]
+    return sound
 
 
 def _check_point_loads(tree, parts, report):
@@ -96,8 +106,8 @@ def _automatic_step(tree, parts, report):
     laws = [parts.get(path) for path, _ in places(tree, ("materials", "*"))]
     if mesh is None or None in laws or (SHARE,) in report.errors:
         return None
-    speed = max((law.sound_speed() for law in laws), default=0.0)
-    return share * min(mesh.cells_dimension) / speed if speed else None
+    steps = [law.critical_time_step(min(mesh.cells_dimension), 0.0) for law in laws]
+    return share * min(steps) if steps else None
 
 
 def _check_earthquake(parts, report):

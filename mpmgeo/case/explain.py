@@ -61,7 +61,8 @@ def accepted(schema, is_limit=False, plural=False) -> str:
     kinds = schema.get("type", "object")
     kind = kinds if isinstance(kinds, str) else kinds[0]
     if kind != "array":
-        return NOUNS[kind][plural] + _limits(schema, is_limit)
+        null = " or null" if "null" in kinds else ""
+        return NOUNS[kind][plural] + null + _limits(schema, is_limit)
     count = f" of {schema['minItems']}" if schema.get("minItems", 0) > 1 else ""
     if "prefixItems" in schema:
         return f"{NOUNS[kind][plural]}{count} {accepted(schema['prefixItems'][0], plural=True)}"

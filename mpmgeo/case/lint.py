@@ -48,11 +48,11 @@ def _outside(position, mesh) -> Iterator[str]:
 
 
 def _empty_bodies(case, body_of_particle) -> Iterator[str]:
-    active = [body for body in case.body if body.active]
-    counts = np.bincount(np.asarray(body_of_particle, dtype=np.int64), minlength=len(active) + 1)
-    for number, body in enumerate(active, start=1):
+    labels = [label for body in case.body if body.active for label in body.labels]
+    counts = np.bincount(np.asarray(body_of_particle, dtype=np.int64), minlength=len(labels) + 1)
+    for number, label in enumerate(labels, start=1):
         if counts[number] == 0:
-            yield f"body {number} ({body.type}) holds no particle"
+            yield f"body {number} ({label}) holds no particle"
 
 
 def _idle_loads(case, position) -> Iterator[str]:
@@ -103,7 +103,7 @@ def significant_frequency(record) -> float:
 
 def _slowest_wave(case):
     """Return the lowest wave speed of the materials in use [m/s]."""
-    used = {body.material_id for body in case.body if body.active}
+    used = {number for body in case.body if body.active for number in body.materials}
     return min(_wave_speed(law) for law in case.materials if law.id in used)
 
 

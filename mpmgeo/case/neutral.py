@@ -36,10 +36,6 @@ UNSUPPORTED = {
     ("n_phases",): Unsupported("two phases", (2,)),
     ("save_state",): Unsupported("saving the state", (True,)),
     ("load_state",): Unsupported("loading a state", (True,)),
-    ("materials", "*", "type"): Unsupported("a material law", ("mohr-coulomb", "newtonian")),
-    ("body", "*", "type"): Unsupported(
-        "a kind of body", ("particles", "particles_list", "particles_from_file", "gmsh")
-    ),
     ("terrain_contact", "active"): Unsupported("contact with a terrain"),
     ("hydro_mechanical_coupling", "enabled"): Unsupported("coupling with pore pressure"),
     ("prescribed_pressure_box",): Unsupported("pore pressure"),
@@ -50,13 +46,17 @@ UNSUPPORTED = {
 }
 
 
+FROM_OUTSIDE = ("particles", "particles_list", "particles_from_file", "gmsh")
+"""Kinds of body whose particles or files may be missing while the body is inactive."""
+
+
 def drop_inactive(tree, report):
     """Remove what a case switches off itself and what would be wrong if it were read."""
-    bodies, later = tree.get("body"), UNSUPPORTED["body", "*", "type"].values
+    bodies = tree.get("body")
     idle = [
         path[-1]
         for path, body in places(tree, ("body", "*"))
-        if body.get("active") is False and body.get("type") in later
+        if body.get("active") is False and body.get("type") in FROM_OUTSIDE
     ]
     for name in idle:
         report.note(("body", name), "inactive")

@@ -12,7 +12,7 @@ from mpmgeo.case.aliases import ALIASES, IGNORED, OBSOLETE
 from mpmgeo.case.explain import accepted
 from mpmgeo.case.kinds import declared, word_of
 from mpmgeo.case.neutral import NEUTRAL
-from mpmgeo.case.schema import case_schema, plain
+from mpmgeo.case.schema import case_schema, definition_of, plain
 from mpmgeo.case.spec import Case
 from mpmgeo.output.fields import GRID_FIELDS, PARTICLE_FIELDS
 
@@ -64,7 +64,7 @@ def _section(cls, place):
 
 def _schema_of(cls, place):
     schema = case_schema()
-    name = "_".join(key for key in (*place, word_of(cls)) if key not in ("*", None))
+    name = definition_of(place, word_of(cls))
     return schema["$defs"][name] if name else schema
 
 

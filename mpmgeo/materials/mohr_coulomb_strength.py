@@ -1,12 +1,13 @@
-"""Strengths of a Mohr–Coulomb material: constant, softening with plastic strain, undrained.
+"""Strengths of a Mohr–Coulomb material: constant, softening with plastic strain, or undrained.
 
     N = (1 + sin φ)/(1 − sin φ)      M = (1 + sin ψ)/(1 − sin ψ)      σc = 2 c √N
-    y = y_residual + (y_peak − y_residual) exp(−η εp)                 softening
-    N = 1,    c = −su σzz, but not below 0                            undrained
+    y = y_residual + (y_peak − y_residual) exp(−η εp)                 softening, y = φ, ψ, c, T
+    N = 1,    c = su max(−σzz, 0)                                     undrained
 
-The tension cut-off T never lies beyond the apex σc/(N − 1).
+The tension cut-off T never lies beyond the apex of the surface, σc/(N − 1).
 
-Source: the softening of MPM-Geomechanics; su of Skempton (1957), Proc. Inst. Civ. Eng. 7, 305–307.
+Source: the manual of MPM-Geomechanics for the softening; su as in Skempton (1957), Proc. Inst. Civ.
+Eng. 7, 305–307.
 """
 
 from math import exp, inf, sin, sqrt
@@ -16,34 +17,8 @@ from mpmgeo.numerics.dispatch import generic
 from mpmgeo.numerics.jit import inlined
 
 
-class Constant(NamedTuple):
-    N: float
-    M: float
-    σc: float
-    T: float
-
-
-class Softening(NamedTuple):
-    """Residual values and what is lost on the way to them; angles in radians."""
-
-    η: float
-    φ: float
-    φ_loss: float
-    ψ: float
-    ψ_loss: float
-    c: float
-    c_loss: float
-    T: float
-    T_loss: float
-
-
-class Undrained(NamedTuple):
-    su: float
-    drained: NamedTuple  # gives dilation and tension
-
-
 @generic
-def strength(model, zz, εp):
+def strength(law, zz, εp):
     """Return N, M, σc [Pa], T [Pa] at the trial vertical stress `zz` [Pa] and plastic strain εp."""
 
 
@@ -59,21 +34,72 @@ def cut_off(N, σc, T):
     return min(T, σc / (N - 1.0) if N > 1.0 else inf)
 
 
+class Constant(NamedTuple):
+    λ: float
+    G2: float
+    E: float
+    ν: float
+    N: float
+    M: float
+    σc: float
+    T: float
+
+    STATE = ("plastic_strain",)
+
+
 @strength.register(Constant)
-def constant(model, zz, εp):
-    return model.N, model.M, model.σc, model.T
+def constant(law, zz, εp):
+    return law.N, law.M, law.σc, law.T
+
+
+class Softening(NamedTuple):
+    """Strengths after softening, and by how much more they begin; angles in radians."""
+
+    λ: float
+    G2: float
+    E: float
+    ν: float
+    η: float
+    φ: float
+    φ_loss: float
+    ψ: float
+    ψ_loss: float
+    c: float
+    c_loss: float
+    T: float
+    T_loss: float
+
+    STATE = ("plastic_strain",)
 
 
 @strength.register(Softening)
-def softening(model, zz, εp):
-    w = exp(-model.η * εp)
-    N = flow_number(model.φ + model.φ_loss * w)
-    M = flow_number(model.ψ + model.ψ_loss * w)
-    σc = 2.0 * (model.c + model.c_loss * w) * sqrt(N)
-    return N, M, σc, cut_off(N, σc, model.T + model.T_loss * w)
+def softening(law, zz, εp):
+    w = exp(-law.η * εp)
+    N = flow_number(law.φ + law.φ_loss * w)
+    M = flow_number(law.ψ + law.ψ_loss * w)
+    σc = 2.0 * (law.c + law.c_loss * w) * sqrt(N)
+    return N, M, σc, cut_off(N, σc, law.T + law.T_loss * w)
+
+
+class Undrained(NamedTuple):
+    """Strength by vertical stress; dilation and tension may soften."""
+
+    λ: float
+    G2: float
+    E: float
+    ν: float
+    su: float
+    η: float
+    ψ: float
+    ψ_loss: float
+    T: float
+    T_loss: float
+
+    STATE = ("plastic_strain",)
 
 
 @strength.register(Undrained)
-def undrained(model, zz, εp):
-    _, M, _, T = strength(model.drained, zz, εp)
-    return 1.0, M, 2.0 * model.su * max(-zz, 0.0), T
+def undrained(law, zz, εp):
+    w = exp(-law.η * εp)
+    M = flow_number(law.ψ + law.ψ_loss * w)
+    return 1.0, M, 2.0 * law.su * max(-zz, 0.0), law.T + law.T_loss * w

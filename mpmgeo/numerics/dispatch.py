@@ -13,6 +13,7 @@ NamedTuple of its symbols, and its formula is registered for that type:
 
 import inspect
 
+from numba import types
 from numba.extending import overload
 
 from mpmgeo.numerics.jit import OPTIONS
@@ -35,7 +36,7 @@ def generic(stub):
         raise TypeError(f"{stub.__name__} has no implementation for {cls.__name__}")
 
     def chosen(model):
-        if model is None or getattr(model, "literal_value", model) is None:
+        if model is None or isinstance(model, types.NoneType):
             return implementations.get(type(None))
         cls = getattr(model, "instance_class", None)
         return None if cls is None else find(cls)

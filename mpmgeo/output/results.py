@@ -1,8 +1,9 @@
 """Write the results of a run: particle files, grid files, their collections, kinetic energy."""
 
 from mpmgeo.output.energy import EnergySeries
-from mpmgeo.output.fields import grid_arrays, particle_arrays
+from mpmgeo.output.grid_fields import grid_arrays
 from mpmgeo.output.mesh_cells import all_cells, block_cells
+from mpmgeo.output.particle_fields import particle_arrays
 from mpmgeo.output.pvd import Collection, remove_previous
 from mpmgeo.output.vtu import write_hexahedra, write_points
 

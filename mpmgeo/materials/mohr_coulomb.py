@@ -1,0 +1,199 @@
+"""Mohr–Coulomb: linear elasticity, friction and cohesion, dilation, tension cut-off, softening.
+
+    N σ₃ − σ₁ ≤ 2 c √N,    N = (1 + sin φ)/(1 − sin φ)    (shear; σ₁ ≤ σ₂ ≤ σ₃, tension positive)
+    σ₃ ≤ T                                                (tension)
+
+An elastic trial stress beyond the surface returns to it along M σ₃ − σ₁ in shear, M as N with the
+angle of dilation, and along σ₃ in tension. The return keeps the principal axes, so that the plastic
+strain follows from the drop of the principal stresses, and gathers as
+
+    εp ← εp + √(⅔ Δεp : Δεp)
+
+The strengths may depend on εp; they are those before the step.
+
+Source: de Souza Neto, Perić and Owen, Computational Methods for Plasticity (2008), chapter 8.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import inf, radians, sqrt, tan
+from typing import ClassVar
+
+from mpmgeo.materials import mohr_coulomb_legacy
+from mpmgeo.materials.elastic import Elastic, hooke
+from mpmgeo.materials.law import update_stress
+from mpmgeo.materials.mohr_coulomb_return import return_to_surface
+from mpmgeo.materials.mohr_coulomb_strength import (
+    Constant,
+    Softening,
+    Undrained,
+    cut_off,
+    flow_number,
+    strength,
+)
+from mpmgeo.materials.rotation import objective_rate
+from mpmgeo.numerics.tensors import invariants, on_same_axes, principal
+from mpmgeo.parameters import parameter
+
+
+SOFTENING = ("friction", "dilation", "cohesion", "tensile")
+"""The strengths that may soften, by the words of the keys."""
+
+
+def _after(key, doc, **bounds):
+    return parameter(
+        f"{doc} after much plastic strain; absent: as at the start",
+        key=f"softening.{key}.residual",
+        default=None,
+        minimum=0,
+        **bounds,
+    )
+
+
+def _active(key, doc):
+    return parameter(f"Whether {doc} softens", key=f"softening.{key}.active", default=False)
+
+
+@dataclass(frozen=True)
+class MohrCoulomb(Elastic):
+    """Elastic solid with friction, cohesion, dilation, tension cut-off and softening."""
+
+    type: ClassVar[str] = "mohr-coulomb"
+
+    friction: float = parameter(
+        "Angle of friction", unit="degree", minimum=0, below=90, default=0.0
+    )
+    cohesion: float = parameter("Cohesion", unit="Pa", minimum=0, default=0.0)
+    dilation: float = parameter(
+        "Angle of dilation", unit="degree", minimum=0, below=90, default=0.0
+    )
+    tensile: float | None = parameter(
+        "Tensile strength; absent: cohesion/tan(friction), unlimited without friction",
+        unit="Pa",
+        minimum=0,
+        default=None,
+    )
+    su_vertical_stress: float = parameter(
+        "Undrained strength over vertical stress; above 0 it takes the place of cohesion and friction",
+        minimum=0,
+        default=0.0,
+    )
+    softening: str = parameter(
+        "How strengths soften with plastic strain",
+        choices=("none", "exponential"),
+        default="none",
+    )
+    eta: float = parameter(
+        "Rate of exponential softening per plastic strain",
+        key="softening.exponential.eta",
+        minimum=0,
+        default=0.0,
+    )
+    friction_residual: float | None = _after(
+        "friction", "Angle of friction", unit="degree", below=90
+    )
+    friction_active: bool = _active("friction", "friction")
+    dilation_residual: float | None = _after(
+        "dilation", "Angle of dilation", unit="degree", below=90
+    )
+    dilation_active: bool = _active("dilation", "dilation")
+    cohesion_residual: float | None = _after("cohesion", "Cohesion", unit="Pa")
+    cohesion_active: bool = _active("cohesion", "cohesion")
+    tensile_residual: float | None = _after("tensile", "Tensile strength", unit="Pa")
+    tensile_active: bool = _active("tensile", "tensile strength")
+    objective_rate: str = objective_rate("jaumann")
+
+    def problems(self) -> Iterator[tuple[str, str]]:
+        """Yield (key, message) where a strength without bound would have to soften."""
+        if self._softens("tensile") and self._peak("tensile") == inf:
+            yield "tensile", "is required when it softens and friction is 0, since nothing else limits tension"
+
+    def remarks(self) -> Iterator[tuple[str, str]]:
+        """Yield (key, message) for what is possible, but hardly meant."""
+        undrained = self.su_vertical_stress > 0
+        if not undrained and self.friction == 0 and self.cohesion == 0:
+            yield "cohesion", "neither cohesion nor friction: the material has no strength in shear"
+        if not undrained and self.dilation > self.friction:
+            yield "dilation", f"{self.dilation:g} exceeds friction, {self.friction:g}: plastic flow creates energy"
+        for key in SOFTENING:
+            active = getattr(self, f"{key}_active")
+            if getattr(self, f"{key}_residual") is not None and not active:
+                yield f"softening.{key}.residual", f"without effect, since softening.{key}.active is not true"
+            if active and self.softening == "none":
+                yield f"softening.{key}.active", 'without effect, since softening is not "exponential"'
+        if self.softening != "none" and self.eta == 0:
+            yield "softening.exponential.eta", "0 softens nothing"
+        if self.softening != "none" and not any(map(self._softens, SOFTENING)):
+            yield "softening", "without effect, since no softening.….active is true"
+
+    def _softens(self, key):
+        return self.softening != "none" and getattr(self, f"{key}_active")
+
+    def _peak(self, key):
+        """Return a strength before softening, angles in radians."""
+        if key in ("friction", "dilation"):
+            return radians(getattr(self, key))
+        if key == "tensile" and self.tensile is None:
+            φ = self._peak("friction")
+            return self.cohesion / tan(φ) if φ > 0 else inf
+        return getattr(self, key)
+
+    def _residual(self, key):
+        """Return a strength after softening, angles in radians; the peak one if it does not soften."""
+        if not self._softens(key):
+            return self._peak(key)
+        value = getattr(self, f"{key}_residual")
+        if value is None:
+            value = getattr(self, key) or 0.0
+        return radians(value) if key in ("friction", "dilation") else value
+
+    @property
+    def symbols(self) -> Constant | Softening | Undrained:
+        stiffness = (*super().symbols, self.young, self.poisson)
+        φ, ψ, c, T = (self._peak(key) for key in SOFTENING)
+        φ_, ψ_, c_, T_ = (self._residual(key) for key in SOFTENING)
+        T_loss = T - T_ if T_ < T else 0.0  # an unlimited tension loses nothing
+        if self.su_vertical_stress > 0:
+            return Undrained(*stiffness, self.su_vertical_stress, self.eta, ψ_, ψ - ψ_, T_, T_loss)
+        if any(map(self._softens, SOFTENING)):
+            losses = (φ_, φ - φ_, ψ_, ψ - ψ_, c_, c - c_, T_, T_loss)
+            return Softening(*stiffness, self.eta, *losses)
+        N, M = flow_number.py_func(φ), flow_number.py_func(ψ)
+        σc = 2 * c * sqrt(N)
+        return Constant(*stiffness, N, M, σc, cut_off.py_func(N, σc, T))
+
+    @property
+    def symbols_as_mpm_geomechanics(self) -> mohr_coulomb_legacy.Symbols:
+        """Return the symbols of the return that leaves edges and corners alone."""
+        peak = [self._peak(key) for key in SOFTENING]
+        residual = [self._residual(key) for key in SOFTENING]
+        if not self.tensile:
+            φ, c = radians(self.friction), self.cohesion
+            peak[-1] = c / tan(φ) if φ > 0 else 0.0
+            residual[-1] = 0.0 if self._softens("tensile") else peak[-1]
+        strengths = (self.eta, *peak, *residual, self.su_vertical_stress)
+        return mohr_coulomb_legacy.Symbols(*super().symbols, *strengths)
+
+
+@update_stress.register(Constant)
+@update_stress.register(Softening)
+@update_stress.register(Undrained)
+def mohr_coulomb(law, stress, strain, state, dt):
+    trial = hooke(law, stress, strain)
+    N, M, σc, T = strength(law, trial[2], state[0])
+    m, J2 = invariants(trial)
+    q = sqrt(4.0 / 3.0 * J2)
+    # whatever the directions: s₃ ≤ m + q, and N s₃ − s₁ ≤ (N − 1) m + q √(N² + N + 1)
+    if (N - 1.0) * m + q * (N + 0.75) <= σc and m + q <= T:
+        return trial + state
+    p = principal(trial)
+    s1, s2, s3 = p[0], p[1], p[2]
+    if N * s3 - s1 <= σc and s3 <= T:
+        return trial + state
+    y1, y2, y3 = return_to_surface(s1, s2, s3, law.ν / (1.0 - law.ν), N, M, σc, T)
+    d1, d2, d3 = s1 - y1, s2 - y2, s3 - y3
+    # |C d|² for the drop d of the principal stresses and the compliance C
+    tr, k = law.ν * (d1 + d2 + d3), 1.0 + law.ν
+    ε1, ε2, ε3 = k * d1 - tr, k * d2 - tr, k * d3 - tr
+    εp = sqrt(2.0 / 3.0 * (ε1 * ε1 + ε2 * ε2 + ε3 * ε3)) / law.E
+    return on_same_axes(p, y1, y2, y3) + (state[0] + εp,)
