@@ -1,7 +1,7 @@
 """How the error of a vibrating bar falls with the cell size, for three stress updates.
 
 Updating the stress last (USL, MUSL) is of second order, updating it first (USF) of first order,
-since the first stress then comes from half a step of motion too much.
+since the first stress then counts the motion of a step that is still to be done.
 """
 
 from mpmgeo import Simulation, load_case

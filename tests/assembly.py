@@ -1,7 +1,8 @@
-"""A solver made of arrays, without a case."""
+"""Scenes for tests: a solver made of arrays, without a case, and a small case."""
 
 import numpy as np
 
+import mpmgeo
 from mpmgeo.boundaries.planes import BoundaryConditions, Planes
 from mpmgeo.materials.elastic import Elastic
 from mpmgeo.mpm.schemes import SCHEMES
@@ -90,3 +91,31 @@ def nodes(solver):
     used = records[:, 6] != 0
     index = solver.grid.indices().reshape(-1, 3)[used]
     return index, records[used, 6], records[used, :3], records[used, 3:6]
+
+
+def two_blocks(**keys):
+    """Return a case as a dict: a block of 32 particles flies over a heavier one of 64 at rest.
+
+    The mesh has 8 × 6 × 10 cells of ½ m, all planes free; the first body has the second material.
+    """
+    soft = {"type": "elastic", "id": 4, "density": 1000.0, "young": 1e6, "poisson": 0.25}
+    heavy = {"type": "elastic", "id": 9, "density": 2000.0, "young": 2e6, "poisson": 0.0}
+    low = {"type": "cuboid", "material_id": 9, "point_p1": [1, 1, 1], "point_p2": [2, 2, 2]}
+    high = {"type": "cuboid", "material_id": 4, "point_p1": [1, 1, 3], "point_p2": [2, 1.5, 4]}
+    return {
+        "time": 0.05,
+        "time_step": 1e-3,
+        "n_threads": 1,
+        "mesh": {
+            "cells_number": [8, 6, 10],
+            "cells_dimension": [0.5, 0.5, 0.5],
+            "boundary_conditions": dict.fromkeys(SIDES, "free"),
+        },
+        "materials": [soft, heavy],
+        "body": [low, high | {"initial_velocity": [3.0, 1.0, -2.0]}],
+    } | keys
+
+
+def simulate(case, **options):
+    """Return the simulation of a case given as a dict."""
+    return mpmgeo.Simulation(mpmgeo.load_case(case), **options)

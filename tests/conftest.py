@@ -31,7 +31,7 @@ def uncached():
     from mpmgeo.mpm import grid_update, transfer
 
     kernels = [*vars(transfer).values(), *vars(grid_update).values()]
-    twins = [twin for k in kernels if hasattr(k, "serial") for twin in (k.serial, k.threaded)]
+    twins = [twin for k in kernels if hasattr(k, "serial") for twin in (k, k.serial)]
     before = [twin._cache for twin in twins]
     for twin in twins:
         twin._cache = NullCache()

@@ -17,7 +17,7 @@ from mpmgeo.shapes import SHAPES
 from mpmgeo.state.grid import Grid, Mesh
 from mpmgeo.state.particles import ParticleSet
 
-CUTOFF = 1e-12  # smallest nodal mass that counts, relative to the smallest particle mass
+TOUCH = 1e-12  # cells by which a particle must reach over a node; less is round-off
 HALF = 0.5  # cells: the largest half-size for which the shapes sum to one
 
 
@@ -49,7 +49,7 @@ def build(case):
         local=damping if damping and not delayed else None,
         delayed=damping if damping and delayed else None,
         settles=isinstance(case.damping, KineticDamping),
-        cutoff=0.0 if legacy else CUTOFF * lightest,
+        cutoff=0.0 if legacy else TOUCH**shape.edge * lightest,
     )
     return solver, notes
 

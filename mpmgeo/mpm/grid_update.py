@@ -1,7 +1,9 @@
 """The step of the nodes: sum the tiles, divide by mass, damp, apply the boundaries, integrate.
 
 A node takes part when its mass exceeds a cut-off, far below the smallest particle mass: at the edge
-of a particle's domain round-off leaves masses so small that their velocities would be absurd.
+of a particle's support round-off leaves masses so small that their velocities would be absurd. Real
+overlap must pass, however small, since its forces count in the balance of momentum: the cut-off is
+the mass of a lightest particle that reaches over the node by 1e-12 of a cell.
 """
 
 from numba import prange

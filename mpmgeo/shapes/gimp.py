@@ -13,6 +13,7 @@ from mpmgeo.shapes.shape import stencil
 
 class Gimp(NamedTuple):
     width = 3
+    edge = 2
 
 
 @stencil.register(Gimp)

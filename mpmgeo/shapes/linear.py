@@ -10,6 +10,7 @@ from mpmgeo.shapes.shape import stencil
 
 class Linear(NamedTuple):
     width = 2
+    edge = 1
 
 
 @stencil.register(Linear)

@@ -1,7 +1,8 @@
 """What every shape function provides to the kernels: its 1D weights and slopes.
 
 On a Cartesian grid a shape function is the product of three 1D functions, each `width` nodes wide.
-A shape is a NamedTuple with that class attribute and one `stencil` registered for its type.
+A shape is a NamedTuple with that class attribute and one `stencil` registered for its type; its
+class attribute `edge` is the power with which the weight vanishes at the edge of the support.
 """
 
 from numba.extending import overload

@@ -51,13 +51,13 @@ def test_new_models_work_as_the_manual_says(tmp_path):
     assert result.returncode == 0, result.stderr
 
 
-def test_output_page_reads_results():
-    (_, _, code) = blocks("manual/output.md")[-1]
+@pytest.mark.parametrize("page", ["README.md", "manual/output.md"])
+def test_library_works_as_the_page_says(page):
+    """The code prints the deflection of a cantilever at its end."""
+    [(_, _, code)] = blocks(page)
     result = run(code, ROOT, PYTHONPATH=str(ROOT))
     assert result.returncode == 0, result.stderr
-    time, deflection = map(float, result.stdout.split())
-    assert time >= 0.05
-    assert deflection < 0
+    assert float(result.stdout.split()[-1]) < 0
 
 
 def anchors(page):

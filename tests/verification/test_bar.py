@@ -11,7 +11,7 @@ BAR = Bar()
 CELLS = [10, 20, 40, 80]
 DURATION = 0.8 * BAR.period  # the displacement is 95 % of its peak, far from its zeros
 ORDER = {"USL": 1.8, "MUSL": 1.8, "USF": 0.9}
-# At 80 cells. USF takes its first stress from half a step of motion too much: an error of ω Δt/2.
+# At 80 cells. The first stress of USF counts a step of motion before it is done: an error of ω Δt.
 ERROR = {"USL": 1e-4, "MUSL": 1e-4, "USF": 1e-2}
 
 
@@ -50,8 +50,8 @@ def test_total_energy_does_not_drift(scheme):
     """Below 1 % at any instant over ten periods.
 
     Velocities live halfway between the instants of the stresses, so the kinetic energy that belongs
-    to a stress is the mean of the two beside it: the step before and after. USF makes the stress
-    of a step from the velocities of the step before, one step earlier than the others.
+    to a stress is the mean of the two beside it: of its own step and the next. USF makes the stress
+    of a step from the velocities of the step before, so that there it is its own and the last.
     """
     kinetic, strain = energies(scheme)
     earlier, later = kinetic[:-1], kinetic[1:]

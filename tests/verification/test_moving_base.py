@@ -17,7 +17,11 @@ EVERY = 8  # steps between samples: 1.5 ms
 
 @pytest.mark.parametrize("scheme", ["USL", "MUSL"])
 def test_base_moves_as_the_record_says(scheme):
-    """Nodes of the base within 0.5 % of the amplitude, lowest particles within 4 %, always."""
+    """Nodes of the base within 0.5 % of the amplitude, lowest particles within 4 %, always.
+
+    For particles this is said of the components that move, x and y. Vertically they carry a noise
+    of up to 5 % in MUSL that no node sees: the mean of their layer stays within 1.5 %.
+    """
     case = read(FOLDER / "case.json") | {"stress_scheme_update": scheme}
     case["earthquake"]["file"] = str(FOLDER / "base_acceleration.csv")
     simulation = mpmgeo.Simulation(mpmgeo.load_case(case))

@@ -109,12 +109,12 @@ def test_twins_do_not_share_a_cache_entry(tmp_path, monkeypatch):
         "        a[i] = i\n"
     )
     signature = numba.types.void(numba.types.float64[::1])
-    module(source).fill.threaded.compile(signature.args)
+    module(source).fill.compile(signature.args)
     again = module(source).fill
     again.serial.compile(signature.args)
     assert not sum(again.serial.stats.cache_hits.values())
-    again.threaded.compile(signature.args)
-    assert sum(again.threaded.stats.cache_hits.values()) == 1
+    again.compile(signature.args)
+    assert sum(again.stats.cache_hits.values()) == 1
     last = module(source).fill
     last.serial.compile(signature.args)
     assert sum(last.serial.stats.cache_hits.values()) == 1
