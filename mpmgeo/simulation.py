@@ -8,6 +8,8 @@ import numpy as np
 
 from mpmgeo.case.build import build, critical_time_step
 from mpmgeo.mpm.solver import Unsound
+from mpmgeo.naming import PLANES
+from mpmgeo.output.histories import Histories, histories_of
 from mpmgeo.output.particle_fields import particle_field
 from mpmgeo.run.diagnosis import diagnose
 from mpmgeo.run.loop import run
@@ -42,6 +44,7 @@ class Simulation:
         self.interrupted = False
         self._kept = None
         self._told = set()
+        self._histories = histories_of(self, self.output or Path())
 
     def _set_threads(self, wanted):
         most = numba.config.NUMBA_NUM_THREADS
@@ -74,7 +77,8 @@ class Simulation:
             return []
         from mpmgeo.output.results import ResultFiles
 
-        return [ResultFiles(self.output, self.case, every)]
+        files = [ResultFiles(self.output, self.case, every)]
+        return [*files, Histories(self._histories, every)] if self._histories else files
 
     def step(self, steps=1):
         """Advance by some steps; returns the simulation."""
@@ -197,6 +201,17 @@ class Simulation:
         values = np.asarray(values, float)
         for s in self.solver.sets:
             getattr(s, name)[:] = values[s.row]
+
+    def reactions(self):
+        """Return the forces (3,) [N] on the material by plane, X0 … Zn, and prescribed velocity.
+
+        They are of the last step that a plane probe or prescribed velocity of the case measured;
+        empty before.
+        """
+        if self.solver.reactions is None:
+            return {}
+        names = [*PLANES, *(entry.name for entry in self.case.prescribed_velocity)]
+        return dict(zip(names, self.solver.reactions, strict=True))
 
     def nodes(self):
         """Return the nodes that carried mass in the last step."""

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-ROUND_OFF = 1e-9
+SLACK = 1e-9  # of an element's size, by which points on its faces count as inside
 NEWTON_STEPS = 12
 
 TETRAHEDRON = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
@@ -51,10 +51,13 @@ class Element:
         self.center = corners.mean(axis=0)
         self.is_linear = len(corners) == len(nodes)
         self._is_tetrahedron = len(corners) == len(TETRAHEDRON)
+        self._is_affine = self.is_linear and self._is_tetrahedron
         self._solution = np.linalg.inv(self._monomials(self.nodes, self.exponents))
 
     def _monomials(self, ξ, exponents):
-        return np.prod(ξ[..., None, :] ** exponents, axis=-1)
+        powers = np.stack([np.ones_like(ξ), ξ, ξ * ξ], axis=-1)
+        x, y, z = exponents.T
+        return powers[..., 0, x] * powers[..., 1, y] * powers[..., 2, z]
 
     def shape(self, ξ):
         """Return the shape functions (..., k) at reference points (..., 3)."""
@@ -78,28 +81,47 @@ class Element:
         jacobian = np.einsum("qak,nkc->nqac", self.slopes(rule.points), nodes)
         return np.linalg.det(jacobian) * rule.weights
 
-    def contains(self, nodes, points):
-        """Tell for elements of nodes (n, k, 3) whether they contain their point of (n, 3) [m]."""
-        ξ = np.repeat(self.center[None], len(points), axis=0)
+    def contains(self, nodes, which, points):
+        """Tell whether points (m, 3) lie in the elements `which` (m,) of nodes (n, k, 3)."""
         with np.errstate(all="ignore"):
-            for _ in range(1 if self.is_linear and self._is_tetrahedron else NEWTON_STEPS):
-                off = points - np.einsum("nk,nkc->nc", self.shape(ξ), nodes)
-                jacobian = np.einsum("nak,nkc->nca", self.slopes(ξ), nodes)
-                ξ = np.clip(ξ + _solve(jacobian, off), -3, 3)
-            off = points - np.einsum("nk,nkc->nc", self.shape(ξ), nodes)
-            size = np.ptp(nodes, axis=1).max(axis=-1)
-            found = np.abs(off).max(axis=1) <= ROUND_OFF * size
+            ξ = self._estimate(nodes, which, points)
+            size = np.ptp(nodes, axis=1).max(axis=1)[which]
+            is_found = self._refine(ξ, nodes[which], points, size) if not self._is_affine else True
+            x, y, z = ξ.T
             if self._is_tetrahedron:
-                return found & (ξ.min(axis=1) >= -ROUND_OFF) & (ξ.sum(axis=1) <= 1 + ROUND_OFF)
-            return found & (np.abs(ξ).max(axis=1) <= 1 + ROUND_OFF)
+                return is_found & (np.minimum(np.minimum(x, y), np.minimum(z, 1 - x - y - z)) >= -SLACK)
+            return is_found & (np.maximum(np.maximum(abs(x), abs(y)), abs(z)) <= 1 + SLACK)
+
+    def _estimate(self, nodes, which, points):
+        """Return where the points would be in the reference element if the elements were affine."""
+        jacobian = np.einsum("ak,nkc->nac", self.slopes(self.center), nodes)
+        inverse = np.moveaxis(_solve(jacobian[:, None], np.eye(3)), -2, -1)
+        middle = self.points(nodes, self.center[None])[:, 0]
+        off = points - middle[which]
+        x, y, z = (inverse[which] * off[:, None]).transpose(2, 1, 0)
+        return self.center + (x + y + z).T
+
+    def _refine(self, ξ, nodes, points, size):
+        """Improve reference points (m, 3) by Newton's method; tell which of them then fit."""
+        for _ in range(NEWTON_STEPS):
+            jacobian = np.einsum("nak,nkc->nac", self.slopes(ξ), nodes)
+            ξ += _solve(jacobian, points - np.einsum("nk,nkc->nc", self.shape(ξ), nodes))
+            np.clip(ξ, -3, 3, out=ξ)
+        off = points - np.einsum("nk,nkc->nc", self.shape(ξ), nodes)
+        return np.abs(off).max(axis=1) <= SLACK * size
 
 
 def _solve(matrix, right):
-    """Solve n systems of three equations by Cramer's rule; singular ones give NaN or infinity."""
-    a, b, c = np.moveaxis(matrix, -1, 0)
-    bc, ca, ab = np.cross(b, c), np.cross(c, a), np.cross(a, b)
+    """Return r with r·M = `right` (…, 3) by Cramer's rule; NaN or infinity where M is singular."""
+    a, b, c = np.moveaxis(matrix, -2, 0)
+    bc, ca, ab = _cross(b, c), _cross(c, a), _cross(a, b)
     determinant = (a * bc).sum(axis=-1, keepdims=True)
     return np.stack([(right * x).sum(axis=-1) for x in (bc, ca, ab)], axis=-1) / determinant
+
+
+def _cross(a, b):
+    (ax, ay, az), (bx, by, bz) = np.moveaxis(a, -1, 0), np.moveaxis(b, -1, 0)
+    return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx], axis=-1)
 
 
 def _middles(nodes, groups):

@@ -28,11 +28,7 @@ def fill(pieces: list[Piece], start: np.ndarray, spacing: np.ndarray):
     """
     volume = np.concatenate([piece.volume for piece in pieces])
     center = np.concatenate([piece.center for piece in pieces])
-    first = np.cumsum([0, *(len(piece.volume) for piece in pieces)])  # number of its first element
-    found = [(np.empty(0, np.int64), np.empty((0, 3), np.int64))]
-    for piece, before in zip(pieces, first, strict=False):
-        found += [(before + e, box) for e, box in _middles_inside(piece, start, spacing)]
-    owner, box = (np.concatenate(column) for column in zip(*found, strict=True))
+    owner, box = _middles(pieces, start, spacing)
     home = np.floor((center - start) / spacing).astype(np.int64)
     key, home_key = _keys(box, home)
 
@@ -44,17 +40,31 @@ def fill(pieces: list[Piece], start: np.ndarray, spacing: np.ndarray):
     position = start + (box[first] + 0.5) * spacing
 
     empty = np.flatnonzero(count == 0)
-    at = np.searchsorted(key, home_key[empty])
     has_home = np.isin(home_key[empty], key)
-    np.add.at(share, at[has_home], volume[empty[has_home]])
-    lonely = empty[~has_home]
-    together = np.unique(home_key[lonely], return_inverse=True)[1]
-    extra = np.bincount(together, volume[lonely])
-    moments = [np.bincount(together, volume[lonely] * x) for x in center[lonely].T]
+    at_home, lonely = empty[has_home], empty[~has_home]
+    np.add.at(share, np.searchsorted(key, home_key[at_home]), volume[at_home])
+    others, extra = _joined(home_key[lonely], center[lonely], volume[lonely])
 
     order = np.argsort(first)
-    middle = np.stack(moments, axis=1) / extra[:, None]
-    return np.concatenate([position[order], middle]), np.concatenate([share[order], extra])
+    return np.concatenate([position[order], others]), np.concatenate([share[order], extra])
+
+
+def _joined(key, center, volume):
+    """Return middle (n, 3) and volume (n,) of all that has the same key."""
+    which = np.unique(key, return_inverse=True)[1]
+    total = np.bincount(which, volume)
+    moments = [np.bincount(which, volume * x) for x in center.T]
+    return np.stack(moments, axis=1) / total[:, None], total
+
+
+def _middles(pieces, start, spacing):
+    """Return elements (n,), counted through all pieces, and boxes (n, 3) whose middles they hold."""
+    found = [(np.empty(0, np.int64), np.empty((0, 3), np.int64))]
+    before = 0
+    for piece in pieces:
+        found += [(before + e, box) for e, box in _middles_inside(piece, start, spacing)]
+        before += len(piece.volume)
+    return [np.concatenate(column) for column in zip(*found, strict=True)]
 
 
 def _keys(*boxes):
@@ -91,5 +101,7 @@ def _middles_inside(piece, start, spacing) -> Iterator[tuple[np.ndarray, np.ndar
         rest, k = np.divmod(rest, extent[element, 2])
         i, j = np.divmod(rest, extent[element, 1])
         box = lowest[element] + np.stack([i, j, k], axis=1)
-        inside = piece.element.contains(piece.nodes[element], start + (box + 0.5) * spacing)
+        few = slice(element[0], element[-1] + 1)
+        middle = start + (box + 0.5) * spacing
+        inside = piece.element.contains(piece.nodes[few], element - few.start, middle)
         yield element[inside], box[inside]

@@ -6,6 +6,7 @@ import numpy as np
 
 from mpmgeo.boundaries.base_motion import BaseMotion, BaseMotionAsMPMGeomechanics
 from mpmgeo.boundaries.planes import Planes
+from mpmgeo.case.bindings import bind_pressure, bind_tools
 from mpmgeo.case.populate import populate
 from mpmgeo.damping import KineticDamping, LocalDamping
 from mpmgeo.loads.point import GHOSTS
@@ -13,6 +14,7 @@ from mpmgeo.materials.rotation import ROTATIONS
 from mpmgeo.mpm.point_loads import PointLoads
 from mpmgeo.mpm.schemes import SCHEMES
 from mpmgeo.mpm.solver import Solver
+from mpmgeo.output.particle_fields import WITH_STRAIN
 from mpmgeo.shapes import SHAPES
 from mpmgeo.state.grid import Grid, Mesh
 from mpmgeo.state.particles import ParticleSet
@@ -33,7 +35,8 @@ def build(case):
     legacy = case.compatibility is not None
     damping = case.damping.value if isinstance(case.damping, LocalDamping) else 0.0
     delayed = legacy and case.stress_scheme_update != "USF"
-    sets = _sets(case, population, velocity, law, notes)
+    tools, tool = bind_tools(case, population, velocity)
+    sets = _sets(case, population, velocity, law, tool, notes)
     lightest = min((float(s.m.min()) for s in sets), default=0.0)
     solver = Solver(
         grid=Grid(mesh, shape.width),
@@ -50,6 +53,8 @@ def build(case):
         delayed=damping if damping and delayed else None,
         settles=isinstance(case.damping, KineticDamping),
         cutoff=0.0 if legacy else TOUCH**shape.edge * lightest,
+        tools=tools,
+        measured=_measured(case),
     )
     return solver, notes
 
@@ -76,14 +81,20 @@ def time_step(case, velocity):
     return case.critical_time_step_multiplier * critical_time_step(case, velocity)
 
 
-def _sets(case, population, velocity, laws, notes):
-    """Return a particle set for each material in use."""
+def _measured(case):
+    """Return the intervals of steps at which the forces of planes and tools are wanted."""
+    planes = [probe.every for probe in case.results.probes if probe.type == "planes"]
+    return tuple(sorted({*planes, *(entry.every for entry in case.prescribed_velocity)}))
+
+
+def _sets(case, population, velocity, laws, tool, notes):
+    """Return a particle set for each material in use, and apart for each tool."""
     cell = np.array(case.mesh.cells_dimension)
+    pressure = bind_pressure(case, population.position, notes)
+    strained = not case.results.needed_fields.isdisjoint(WITH_STRAIN)
     sets = []
-    for index, law in enumerate(case.materials):
-        rows = np.flatnonzero(laws == index)
-        if not len(rows):
-            continue
+    for index, number in np.unique(np.column_stack([laws, tool]), axis=0):
+        rows, law = np.flatnonzero((laws == index) & (tool == number)), case.materials[index]
         volume = population.size[rows].prod(axis=1)
         symbols = law.symbols if case.compatibility is None else law.symbols_as_mpm_geomechanics
         variables = len(symbols.STATE)
@@ -100,6 +111,9 @@ def _sets(case, population, velocity, laws, notes):
                 half=_half_sizes(population.size[rows] / cell / 2, notes),
                 force=None if population.force is None else population.force[rows],
                 state=np.zeros((len(rows), variables)) if variables else None,
+                pressure=None if pressure is None else pressure[rows],
+                strain=np.zeros((len(rows), 6)) if strained else None,
+                tool=int(number) if number >= 0 else None,
             )
         )
     return sets

@@ -44,8 +44,10 @@ def validate(tree, report):
 def place_of(path) -> tuple[str, ...]:
     """Return the place of a path: `*` stands for the name or position of an entry."""
     place = ["*" if isinstance(key, int) else key for key in path]
-    if len(place) > 1 and place[0] in CONTAINERS:
-        place[1] = "*"
+    for container in CONTAINERS:
+        depth = len(container)
+        if len(place) > depth and tuple(place[:depth]) == container:
+            place[depth] = "*"
     return tuple(place)
 
 

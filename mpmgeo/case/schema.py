@@ -11,7 +11,19 @@ DIALECT = "https://json-schema.org/draft/2020-12/schema"
 INTEGERS = {"minimum": -(2**31), "maximum": 2**31 - 1}
 """Whole numbers that every later step can hold."""
 
-CONTAINERS = tuple(key for key, kind, _ in declared(Case) if kind.is_container)
+
+
+def _containers(cls, place):
+    for key, kind, _ in declared(cls):
+        if kind.is_container:
+            yield (*place, key)
+        elif kind.name == "object":
+            for inner in kind.classes:
+                yield from _containers(inner, (*place, key))
+
+
+CONTAINERS = tuple(_containers(Case, ()))
+"""Places of the lists of objects that a case may also write as an object."""
 
 BOUNDS = {
     "above": "exclusiveMinimum",

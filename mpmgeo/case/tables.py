@@ -14,7 +14,13 @@ from mpmgeo.case.kinds import declared, word_of
 from mpmgeo.case.neutral import NEUTRAL
 from mpmgeo.case.schema import case_schema, definition_of, plain
 from mpmgeo.case.spec import Case
-from mpmgeo.output.fields import GRID_FIELDS, PARTICLE_FIELDS
+from mpmgeo.output.fields import (
+    FLUID_FIELDS,
+    FURTHER_FIELDS,
+    GRID_FIELDS,
+    PARTICLE_FIELDS,
+    TERRAIN_FIELDS,
+)
 
 MARK = "<!-- From here on generated: python -m mpmgeo.case.tables -->\n"
 
@@ -37,7 +43,9 @@ def tables() -> str:
     parts = [_section(*part) for part in _objects(Case, ())]
     parts += [
         _fields("Fields of `results.material_point_results`", PARTICLE_FIELDS),
+        _fields("Further fields, by name only", FURTHER_FIELDS | FLUID_FIELDS),
         _fields("Fields of `results.grid_nodal_results`", GRID_FIELDS),
+        _fields("Fields of `results.stl_contact_mesh`", TERRAIN_FIELDS),
         _spellings(),
         _without_effect(),
     ]

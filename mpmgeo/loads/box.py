@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mpmgeo.loads.region import Box
 from mpmgeo.parameters import Vector, parameter
+from mpmgeo.region import Box
 
 
 @dataclass(frozen=True)

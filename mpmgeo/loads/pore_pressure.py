@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
-from mpmgeo.loads.region import Box
 from mpmgeo.parameters import Vector, parameter
+from mpmgeo.region import Box
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,5 @@
 """A prescribed velocity of a body, of the particles in a box or of a plane of the mesh."""
 
-import re
 from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -10,21 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
-from mpmgeo.loads.region import turned, within
 from mpmgeo.loads.table import read_table
+from mpmgeo.naming import PLANES, name_problems
 from mpmgeo.parameters import Components, Vector, parameter
-
-PLANES = ("X0", "Y0", "Z0", "Xn", "Yn", "Zn")
-
-NAME = re.compile(r"[\w+-][\w .+-]{0,59}")
-"""What a name must be that is to become the name of a file."""
-
-
-def name_problems(name) -> Iterator[tuple[str, str]]:
-    """Yield (key, message) if a name cannot be that of a file."""
-    if name and (not NAME.fullmatch(name) or name.endswith((" ", "."))):
-        accepted = "up to 60 letters, digits, blanks and any of _ . + -, as in a file name"
-        yield "name", f"{name[:60]!r} is not accepted; accepted: {accepted}"
+from mpmgeo.region import turned, within
 
 
 @dataclass(frozen=True)
@@ -41,6 +29,13 @@ class Motion:
     def _rows(self):
         # plain numbers: a run asks for two instants a step
         return self.time.tolist(), [tuple(row) for row in self.velocity.tolist()]
+
+    def displacement(self, t: float) -> np.ndarray:
+        """Return the way (3,) [m] from time 0 to time t [s], at least 0."""
+        inner = self.time[(self.time > 0) & (self.time < t)].tolist()
+        instants = np.array([0.0, *inner, t])
+        velocity = np.array([self.at(instant) for instant in instants])
+        return (np.diff(instants)[:, None] * (velocity[1:] + velocity[:-1]) / 2).sum(axis=0)
 
     def at(self, t: float) -> tuple[float, float, float]:
         """Return the velocity [m/s] at time t [s]."""

@@ -17,6 +17,7 @@ from mpmgeo.materials.elastic import hooke
 from mpmgeo.materials.law import update_stress
 from mpmgeo.materials.mohr_coulomb_strength import flow_number
 from mpmgeo.numerics.jit import inlined
+from mpmgeo.numerics.tensors import on_same_axes, principal
 
 
 class Symbols(NamedTuple):
@@ -39,44 +40,7 @@ class Symbols(NamedTuple):
 
 
 C_MIN = 1e-5  # [Pa] cohesion where the vertical stress is tensile
-SWEEPS = 6
-
-
-@inlined
-def rotation(xx, yy, xy):
-    """Return cos and sin of the angle about z that makes xy zero."""
-    if xy == 0.0:
-        return 1.0, 0.0
-    θ = 0.5 * (yy - xx) / xy
-    t = 1.0 / (abs(θ) + sqrt(θ * θ + 1.0))
-    c = 1.0 / sqrt(t * t + 1.0)
-    return c, t * c if θ > 0.0 else -t * c
-
-
-@inlined
-def eigenvectors(a):
-    """Return three principal values, in no order, and the axis of each: a flat tuple of 12.
-
-    Jacobi's method; where values coincide round-off chooses the axes. Each rotation is about the
-    third axis, then the axes change places.
-    """
-    x, y, z, xy, yz, xz = a
-    x0, x1, x2, y0, y1, y2, z0, z1, z2 = 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0
-    for _ in range(3 * SWEEPS):
-        c, s = rotation(x, y, xy)
-        t = s / c * xy
-        x, y, xz, yz = x - t, y + t, c * xz - s * yz, s * xz + c * yz
-        x0, x1, x2, y0, y1, y2 = (
-            c * x0 - s * y0,
-            c * x1 - s * y1,
-            c * x2 - s * y2,
-            s * x0 + c * y0,
-            s * x1 + c * y1,
-            s * x2 + c * y2,
-        )
-        x, y, z, xy, yz, xz = y, z, x, yz, xz, 0.0
-        x0, x1, x2, y0, y1, y2, z0, z1, z2 = y0, y1, y2, z0, z1, z2, x0, x1, x2
-    return x, y, z, x0, x1, x2, y0, y1, y2, z0, z1, z2
+NOISE = 1e-9  # relative shear that decides, in place of round-off, between equal stresses
 
 
 @inlined
@@ -111,22 +75,10 @@ def one_plane(law, s1, s2, s3, N, M, c, T):
 def mohr_coulomb_legacy(law, stress, strain, state, dt):
     trial = hooke(law, stress, strain)
     N, M, c, T = strengths(law, trial[2], state[0])
-    x, y, z, x0, x1, x2, y0, y1, y2, z0, z1, z2 = eigenvectors(trial)
-    if y < x:
-        x, y, x0, x1, x2, y0, y1, y2 = y, x, y0, y1, y2, x0, x1, x2
-    if z < y:
-        y, z, y0, y1, y2, z0, z1, z2 = z, y, z0, z1, z2, y0, y1, y2
-    if y < x:
-        x, y, x0, x1, x2, y0, y1, y2 = y, x, y0, y1, y2, x0, x1, x2
-    x, y, z, εp = one_plane(law, x, y, z, N, M, c, T)
+    xx, yy, zz, xy, yz, xz = trial
+    k = NOISE * (abs(xx) + abs(yy) + abs(zz))
+    p = principal((xx, yy, zz, xy - k, yz - k, xz - k))
+    y1, y2, y3, εp = one_plane(law, p[0], p[1], p[2], N, M, c, T)
     if εp == 0.0:
         return trial + state
-    return (
-        x * x0 * x0 + y * y0 * y0 + z * z0 * z0,
-        x * x1 * x1 + y * y1 * y1 + z * z1 * z1,
-        x * x2 * x2 + y * y2 * y2 + z * z2 * z2,
-        x * x0 * x1 + y * y0 * y1 + z * z0 * z1,
-        x * x1 * x2 + y * y1 * y2 + z * z1 * z2,
-        x * x0 * x2 + y * y0 * y2 + z * z0 * z2,
-        state[0] + εp,
-    )
+    return on_same_axes(p, y1, y2, y3) + (state[0] + εp,)

@@ -5,7 +5,6 @@
 m a: what the node's momentum changes by in a step, f: internal, external and damping forces there.
 """
 
-import numpy as np
 from numba import prange
 
 from mpmgeo.boundaries.planes import BASE, FIXED, FREE
@@ -14,9 +13,6 @@ from mpmgeo.numerics.jit import blockwise, inlined
 from mpmgeo.numerics.simd import LANES, lane, load
 from mpmgeo.shapes.shape import width
 from mpmgeo.state.grid import NODES, SIDE
-
-PLANES = ("X0", "Y0", "Z0", "Xn", "Yn", "Zn")
-"""Names of the planes in the order of the forces."""
 
 
 @inlined

@@ -11,6 +11,7 @@ from mpmgeo.boundaries.planes import Planes
 from mpmgeo.mpm import grid_update, reactions, transfer
 from mpmgeo.mpm.point_loads import PointLoads
 from mpmgeo.mpm.tools import Tools
+from mpmgeo.naming import PLANES
 from mpmgeo.numerics.clock import Clock
 from mpmgeo.state.grid import Grid
 from mpmgeo.state.inspection import first_unsound, kinetic_energy
@@ -72,15 +73,15 @@ class Solver:
         self.small = self.count <= SMALL
         self._motion = STILL
         self.reactions = None  # (6 + tools, 3) [N] of planes and tools when last measured
-        self._last_energy = 0.0
+        self.last_energy = 0.0
         self.peak_energy = None  # before kinetic damping stopped the particles, if it is on
-        self._gone = self.count  # how many particles are not where the order says
+        self.gone = self.count  # how many particles are not where the order says
         if self.base is not None:
             self.planes = self.base.planes(self.planes)
 
     def arrange(self):
         """Sort the particles now if some are not where the order says."""
-        if self._gone:
+        if self.gone:
             self._sort()
 
     # The step
@@ -93,7 +94,7 @@ class Solver:
             if self.base.ended:
                 self.planes = self.base.planes_after(self.planes)
         self.clock.begin()
-        if self._gone:
+        if self.gone:
             self._sort()
             self.clock.lap("sort")
         if self.tools is not None:
@@ -133,7 +134,7 @@ class Solver:
 
     def _sort(self):
         left = sort(self.grid, self.sets, self.small)
-        self._gone = 0
+        self.gone = 0
         for s, count in zip(self.sets, left, strict=True):
             if not count:
                 continue
@@ -149,13 +150,13 @@ class Solver:
     def _settle(self):
         """Stop all particles when the kinetic energy has passed a peak (Cundall 1982)."""
         energy = self.peak_energy = self.kinetic_energy()
-        if energy < self._last_energy:
+        if energy < self.last_energy:
             for s in self.sets:
                 s.v[: s.active] = 0.0
             if self.tools is not None:
                 self.tools.hold(self.sets)
             energy = 0.0
-        self._last_energy = energy
+        self.last_energy = energy
 
     # Keeping a state
 
@@ -214,7 +215,7 @@ class Solver:
 
     def _measure(self, arguments):
         tools = 0 if self.tools is None else len(self.tools.given)
-        forces = np.zeros((len(self.grid.active), len(reactions.PLANES) + tools, 3))
+        forces = np.zeros((len(self.grid.active), len(PLANES) + tools, 3))
         self._run(reactions.add_forces, *arguments, forces)
         self.reactions = forces.sum(axis=0)
         self.clock.lap("reactions")
@@ -241,7 +242,7 @@ class Solver:
         """Move the particles; change velocities by h times the acceleration unless h is None."""
         g = self.grid
         for s in self.sets:
-            self._gone += self._run(
+            self.gone += self._run(
                 transfer.gather,
                 *(s.law if stress else None, s.rotation, s.chunk, s.start, g.corner, g.above, g.nodes),
                 *(g.scratch, s.half, s.x, None if h is None else s.v, s.V, s.stress, s.state),

@@ -36,7 +36,7 @@ def invariants(a):
 
 @inlined
 def principal(a):
-    """Return the principal values, ascending, and the frame of the tensor: a flat tuple of 3 and 15.
+    """Return the principal values, ascending, and the frame of the tensor: a flat tuple of 3 and 14.
 
     The values are accurate to round-off of the largest one, however near to each other they are.
     """
@@ -70,27 +70,25 @@ def principal(a):
 
     far, near, middle = m + turn * s * t, m + turn * s * (0.5 * (-t - g)), m + turn * s * (0.5 * (g - t))
     low, high = (near, far) if turn > 0.0 else (far, near)
-    return low, middle, high, turn, s, g, N0, N1, N2, N3, N4, N5, M0, M1, M2, M3, M4, M5
+    return low, middle, high, turn, g, N0, N1, N2, N3, N4, N5, M0, M1, M2, M3, M4, M5
 
 
 @inlined
 def on_same_axes(p, low, middle, high):
     """Return the tensor on the axes of what `principal` returned, with other principal values.
 
-    The new values must be in the same order, and no two of them farther apart than the old ones.
+    Old values that are equal to round-off must get new ones that are.
     """
-    turn, s, g = p[3], p[4], p[5]
+    turn, g = p[3], p[4]
     far, near = (high, low) if turn > 0.0 else (low, high)
     m = 0.5 * (middle + near)
     n = far - m
-    # the quotient is at most 1; its round-off is large only where M is as small
-    q = min(abs(middle - near) / (s * g), 1.0) * s if s * g > 0.0 else 0.0
-    q *= turn
+    q = (middle - near) / g if g > 0.0 else 0.0
     return (
+        m + n * p[5] + q * p[11],
         m + n * p[6] + q * p[12],
         m + n * p[7] + q * p[13],
-        m + n * p[8] + q * p[14],
+        n * p[8] + q * p[14],
         n * p[9] + q * p[15],
         n * p[10] + q * p[16],
-        n * p[11] + q * p[17],
     )
