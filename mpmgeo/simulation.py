@@ -217,7 +217,7 @@ class Simulation:
         """Return the nodes that carried mass in the last step."""
         grid = self.solver.grid
         records, index = grid.records().reshape(-1, 8), grid.indices().reshape(-1, 3)
-        used = records[:, 6] > 0
+        used = records[:, 6] > self.solver.cutoff
         mesh = self.case.mesh
         position = index[used] * np.array(mesh.cells_dimension) + mesh.origin
         return Nodes(index[used] + 2, position, records[used, 6], records[used, :3])

@@ -10,12 +10,14 @@ class Spline6(NamedTuple):
     """B-spline of degree five."""
 
     width = 6
+    edge = 5
 
 
 class Spline10(NamedTuple):
     """B-spline of degree nine."""
 
     width = 10
+    edge = 9
 
 
 def _spline(width):

@@ -1,9 +1,9 @@
 """The step of the nodes: sum the tiles, divide by mass, damp, apply the boundaries, integrate.
 
-A node takes part when its mass exceeds a cut-off, far below the smallest particle mass: at the edge
-of a particle's support round-off leaves masses so small that their velocities would be absurd. Real
-overlap must pass, however small, since its forces count in the balance of momentum: the cut-off is
-the mass of a lightest particle that reaches over the node by 1e-12 of a cell.
+At the edge of a particle's support round-off leaves nodal masses so small that forces of round-off
+would give them absurd velocities. Below a cut-off, the mass of a lightest particle that reaches over
+the node by 1e-12 of a cell, a node keeps the velocity of its particles: a mean of theirs is always
+safe, while zero would strain them. The forces still reach the particles, so momentum stays.
 """
 
 from numba import prange
@@ -137,20 +137,20 @@ def update_momentum(
                 at = (b * NODES + n) * LANES
                 r = load(scratch, first + n * LANES)
                 m = lane(r, 0)
-                if not m > cutoff:
+                if not m > 0.0:
                     store(nodes, at, splat(0.0))
                     continue
                 i, j, k = I * SIDE + n // 16, J * SIDE + n // 4 % 4, K * SIDE + n % 4
                 vx, vy, vz, ax, ay, az, _, _, _ = integrated(
                     planes, mesh, base, pull, drives, local, delayed, owner, given, before, after,
-                    h, bounded, b * NODES + n, i, j, k, r, load(nodes, at),
+                    h if m > cutoff else 0.0, bounded, b * NODES + n, i, j, k, r, load(nodes, at),
                 )  # fmt: skip
                 store(nodes, at, pack(vx, vy, vz, ax, ay, az, m, 0.0))
 
 
 @blockwise
 def update_velocity(
-    shape, mesh, planes, base, drives, owner, given, prescribed, cutoff,
+    shape, mesh, planes, base, drives, owner, given, prescribed,
     chunk, corner, below, tiles, scratch, nodes,
 ):  # fmt: skip
     """Make nodal velocities of momentum; what was the velocity moves to the acceleration's place.
@@ -170,7 +170,7 @@ def update_velocity(
                 at = (b * NODES + n) * LANES
                 r = load(scratch, first + n * LANES)
                 m = lane(r, 0)
-                if not m > cutoff:
+                if not m > 0.0:
                     store(nodes, at, splat(0.0))
                     continue
                 w = 1.0 / m

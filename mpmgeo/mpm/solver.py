@@ -59,7 +59,7 @@ class Solver:
     local: float | None = None
     delayed: float | None = None
     settles: bool = False
-    cutoff: float = 0.0  # [kg] a node takes part if its mass exceeds it
+    cutoff: float = 0.0  # [kg] nodal mass up to which forces do not move a node
     tools: Tools | None = None
     measured: tuple[int, ...] = ()  # intervals of steps at which the reactions are measured
 
@@ -233,7 +233,7 @@ class Solver:
         velocity = self._motion.after if base == "after" else self._motion.before
         self._run(
             grid_update.update_velocity,
-            *(self.planes, velocity, self._motion.drives, *self._driven(base), self.cutoff),
+            *(self.planes, velocity, self._motion.drives, *self._driven(base)),
             *(g.chunk, g.active_corner, g.below, g.tiles, g.scratch, g.nodes),
         )
         self.clock.lap("grid update")

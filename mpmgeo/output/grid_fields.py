@@ -13,14 +13,15 @@ _NAMES = {
 }
 
 
-def grid_arrays(grid, node_id, keys):
+def grid_arrays(solver, node_id, keys):
     """Return the arrays of a grid file at the nodes `node_id` (n,), ascending, by their names."""
-    mesh = grid.mesh
+    grid, mesh = solver.grid, solver.grid.mesh
     nodes = np.array([mesh.nx, mesh.ny, mesh.nz]) + 5
     mass, velocity = np.zeros(len(node_id)), np.zeros((len(node_id), 3))
     if {"active", "mass", "velocity"} & set(keys):
         index, records = grid.indices().reshape(-1, 3) + 2, grid.records().reshape(-1, 8)
-        used = (records[:, 6] > 0) & (index >= 0).all(axis=1) & (index < nodes).all(axis=1)
+        inside = (index >= 0).all(axis=1) & (index < nodes).all(axis=1)
+        used = inside & (records[:, 6] > solver.cutoff)
         index, records = index[used], records[used]
         number = index @ np.array([1, nodes[0], nodes[0] * nodes[1]])
         at = np.searchsorted(node_id, number.astype(np.uint64))

@@ -68,7 +68,7 @@ class ResultFiles:
         number = len(self.grid.entries) + 1
         path = self.grid.path.parent / f"eulerianGrid_{number}.vtu"
         cells = self._grid_cells(simulation)
-        arrays = grid_arrays(simulation.solver.grid, cells.node_id, self.results.grid_fields)
+        arrays = grid_arrays(simulation.solver, cells.node_id, self.results.grid_fields)
         write_hexahedra(path, cells.points, cells.connectivity, arrays, {"CellId": cells.cell_id})
         self.grid.add(label, path)
         self.grid.write()

@@ -86,5 +86,5 @@ def _checksum(entries):
     for name in sorted(entries):
         array = np.ascontiguousarray(entries[name])
         digest.update(f"{name} {array.dtype.str} {array.shape};".encode())
-        digest.update(array.view(np.uint8).data if array.size and array.ndim else array.tobytes())
+        digest.update(array.tobytes() if array.dtype.kind == "U" else array)
     return digest.hexdigest()

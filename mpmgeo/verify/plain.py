@@ -113,16 +113,18 @@ def update_nodes(h, local, cutoff, free, M, P, F, U, A):
     """Make velocities of the nodal momentum and, unless the force is None, integrate it over h.
 
     `free`: 0 for components that a plane holds; `local`: share of local damping, None without.
+    Forces do not move a node whose mass is not above `cutoff`.
     """
     for n in np.ndindex(M.shape):
         u = a = ZERO
-        if M[n] > cutoff:
+        if M[n] > 0.0:
             u = held(free, n, plus(ZERO, 1.0 / M[n], vector(P, n)))
             if F is not None:
                 a = held(free, n, plus(ZERO, 1.0 / M[n], vector(F, n)))
                 if local is not None and size(u) > 0.0:
                     a = held(free, n, plus(a, -local * size(a) / size(u), u))
-                u = plus(u, h, a)
+                if M[n] > cutoff:
+                    u = plus(u, h, a)
         for c in range(3):
             U[n[0], n[1], n[2], c] = u[c]
             if F is not None:

@@ -93,6 +93,18 @@ def test_weights_are_continuous_where_the_first_node_changes(shape, l):
 
 
 @SHAPE
+@pytest.mark.parametrize("l", [0.5, 0.25])
+def test_power_with_which_the_weight_vanishes(shape, l):
+    """Half as far over the edge of its support, a particle has 2^−edge of the weight there."""
+    low, high = -0.5, 0.5
+    while high - low > 1e-15:
+        middle = (low + high) / 2
+        low, high = (middle, high) if parts(shape, middle, l)[0][0] > 1e-300 else (low, middle)
+    far, near = (parts(shape, high - d, l)[0][0] for d in (2e-3, 1e-3))
+    assert np.log2(far / near) == pytest.approx(type(shape).edge, abs=0.01)
+
+
+@SHAPE
 @pytest.mark.parametrize("edge", EDGES)
 def test_a_hair_beyond_the_edge_does_no_harm(shape, edge):
     """Round-off may put a particle there; sums must hold as inside."""

@@ -20,8 +20,8 @@ POLYGON = {
 }
 POLYGON["points"] = [[x, y + 4, z] for x, y, z in POLYGON["points"]]
 ENERGY = {"GIMP": 1e-12, "linear": 1e-5}  # relative
-PATH = {"GIMP": 1e-9, "linear": 1e-4}  # of the path
-STRESS = {"GIMP": 1e-9, "linear": 1e-3}  # of Young's modulus
+PATH = {"GIMP": 1e-12, "linear": 1e-4}  # of the path
+STRESS = {"GIMP": 1e-14, "linear": 1e-3}  # of Young's modulus
 BODIES = {
     "cuboid": cuboid([4, 4, 9], [8, 8, 13]),
     "sphere": sphere([6, 6, 11], 4.0),

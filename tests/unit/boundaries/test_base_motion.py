@@ -36,7 +36,7 @@ def test_the_base_is_held_after_the_record():
     base = BaseMotion(RECORD)
     symbols = planes("free")
     motions = follow(base, 8)
-    assert not motions[5] == STILL and motions[7] == STILL
+    assert motions[5] != STILL and motions[7] == STILL
     assert base.ended and base.planes_after(base.planes(symbols)) == symbols._replace(z0=BASE)
 
 

@@ -6,8 +6,16 @@ import numpy as np
 import pytest
 from assembly import SIDES, assemble, nodes, planes
 
-from mpmgeo.boundaries.planes import BASE, FIXED, FREE, SLIDING, BoundaryConditions, Planes
-from mpmgeo.boundaries.planes import constrain, touches
+from mpmgeo.boundaries.planes import (
+    BASE,
+    FIXED,
+    FREE,
+    SLIDING,
+    BoundaryConditions,
+    Planes,
+    constrain,
+    touches,
+)
 from mpmgeo.state.grid import SIDE, Mesh
 
 MESH = Mesh.of((0.0, 0.0, 0.0), (1.0, 1.0, 1.0), (5, 6, 7))

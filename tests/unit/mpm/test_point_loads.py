@@ -74,16 +74,15 @@ def test_loads_find_their_nodes_again_when_blocks_change():
     solver = assemble([[1.6, 5.0, 5.0]], velocity=(50.0, 0.0, 0.0), point_loads=loads)
     impulse = 0.0
     for _ in range(195):
-        idle = loads.idle(solver.grid)[0] if solver.steps else True
         before = by_row(solver, "v")[0, 2]
         solver.step()
-        index, mass, _, _ = nodes(solver)
+        index, *_ = nodes(solver)
         felt = (index == [10, 5, 5]).all(axis=1).any()
         change = by_row(solver, "v")[0, 2] - before
         assert (change > 0) == felt
         assert loads.idle(solver.grid)[0] == (not felt)
         impulse += change
-    assert idle in (True, False) and impulse > 0
+    assert impulse > 0
     assert by_row(solver, "x")[0, 0] > 11.3
 
 

@@ -40,7 +40,7 @@ def test_particles_that_leave_take_no_further_part(scheme, split):
     for _ in range(5):
         solver.step()
     assert sum(s.active for s in solver.sets) == 2
-    gone = [d for d in solver.departures]
+    gone = solver.departures
     assert sorted(np.concatenate([d.rows for d in gone])) == [0, 2]
     # outside after the second step, noticed when the third begins
     assert {d.time for d in gone} == {DT + DT}

@@ -1,4 +1,4 @@
-"""Stencils of any width: a step compared with plain sums over all nodes, and fields it must keep."""
+"""Stencils of any width: a step compared with plain sums, and fields that it must keep."""
 
 from itertools import product
 

@@ -40,7 +40,7 @@ def module(path):
 
 
 def test_equal_sources_share_the_folder(copy):
-    package, folder = copy
+    _, folder = copy
     assert folder() == folder()
     assert folder().is_dir() and folder().parent.name == "mpmgeo"
     assert folder().name == Path(jit._cache_folder()).name

@@ -8,8 +8,8 @@ from numba import njit
 from mpmgeo.numerics import simd
 from mpmgeo.numerics.simd import (
     add,
-    along,
     aligned,
+    along,
     axpy,
     lane,
     load,
@@ -69,7 +69,9 @@ def test_load_and_store_at_any_index():
     assert (np.delete(out, np.s_[11:19]) == GUARD).all()
 
 
-@pytest.mark.parametrize("wrong", [np.zeros(8, np.float32), np.zeros(8, np.int64), np.zeros(16)[::2]])
+@pytest.mark.parametrize(
+    "wrong", [np.zeros(8, np.float32), np.zeros(8, np.int64), np.zeros(16)[::2]]
+)
 def test_other_arrays_are_refused(wrong):
     """Their bytes are no row of doubles; they must not compile."""
 

@@ -67,9 +67,7 @@ def test_first_sort(width):
     assert len(grid.keys) == len(np.unique(base_corner(sets[0].x, width), axis=0))
 
 
-moves = st.lists(
-    st.tuples(st.integers(0, 59), st.tuples(*[st.floats(-0.3, 1.3)] * 3)), max_size=60
-)
+moves = st.lists(st.tuples(st.integers(0, 59), st.tuples(*[st.floats(-0.3, 1.3)] * 3)), max_size=60)
 
 
 @settings(max_examples=100)

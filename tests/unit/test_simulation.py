@@ -1,0 +1,338 @@
+"""The simulation as scripts use it."""
+
+import numba
+import numpy as np
+import pytest
+from assembly import RUBBER, SIDES, simulate, two_blocks
+
+import mpmgeo
+from mpmgeo.materials.elastic import Elastic
+
+SOFT = Elastic(id=4, density=1e3, young=1e6, poisson=0.25)
+HEAVY = Elastic(id=9, density=2e3, young=2e6, poisson=0.0)
+UNUSED = {"type": "elastic", "id": 7, "density": 1.0, "young": 1e9, "poisson": 0}
+
+
+def test_public_names():
+    assert set(mpmgeo.__all__) <= set(dir(mpmgeo)) | {"CaseError", "Simulation", "load_case"}
+    assert mpmgeo.Simulation.__name__ == "Simulation"
+    with pytest.raises(AttributeError, match="nothing"):
+        _ = mpmgeo.nothing
+
+
+# Running
+
+
+def test_run_returns_the_simulation_at_the_end_of_the_case():
+    simulation = simulate(two_blocks())
+    assert simulation.time == 0.0 and simulation.steps == 0
+    assert simulation.run() is simulation
+    assert simulation.steps == 50 and simulation.time == pytest.approx(0.05)
+    assert not simulation.interrupted
+
+
+def test_run_until_and_on():
+    """In pieces or at once, in steps or as a run: the same bits."""
+    whole = simulate(two_blocks()).run()
+    pieces = simulate(two_blocks()).run(until=0.0102)
+    assert pieces.steps == 11
+    pieces.step(9).step()
+    assert pieces.steps == 21
+    pieces.run()
+    assert pieces.steps == 50
+    for key in ("position", "velocity", "stress", "volume"):
+        assert (pieces.field(key) == whole.field(key)).all()
+
+
+def test_a_run_that_is_over_does_nothing():
+    simulation = simulate(two_blocks()).run()
+    assert simulation.run().steps == 50
+
+
+def test_watchers_see_every_step():
+    class Watcher:
+        def begin(self, simulation):
+            self.times = [simulation.time]
+
+        def after_step(self, simulation):
+            self.times.append(simulation.time)
+
+        def end(self, simulation, error):
+            self.error = error
+
+    watcher = Watcher()
+    simulate(two_blocks()).run(watchers=[watcher])
+    assert watcher.times == pytest.approx(1e-3 * np.arange(51)) and watcher.error is None
+
+
+def test_free_particles_fall_freely():
+    """Until the blocks meet, nothing but gravity acts; velocities are half a step early."""
+    simulation = simulate(two_blocks(gravity=[0, 0, -10.0])).step(20)
+    start = np.repeat([[0, 0, 0], [3.0, 1.0, -2.0]], [64, 32], axis=0)
+    speed = simulation.field("velocity") - start
+    assert speed == pytest.approx(np.tile([0, 0, -10.0 * 19.5e-3], (96, 1)), abs=1e-9)
+
+
+def test_threads():
+    most = numba.config.NUMBA_NUM_THREADS
+    assert simulate(two_blocks()).threads == 1
+    assert simulate(two_blocks(), threads=2).threads == 2
+    case = two_blocks()
+    del case["n_threads"]
+    assert simulate(case).threads == most
+    greedy = simulate(two_blocks(), threads=10_000)
+    assert greedy.threads == most
+    assert any("10000 asked for" in message for message in greedy.messages)
+
+
+def test_threads_are_set_for_each_simulation(threads):
+    one, two = simulate(two_blocks()), simulate(two_blocks(), threads=2)
+    for simulation in (one, two, one):
+        simulation.step()
+        assert numba.get_num_threads() == simulation.threads
+
+
+# Time steps and outputs
+
+
+def test_critical_time_step_counts_cells_waves_and_speed():
+    """The smallest cell, the fastest wave of the materials in use, the fastest particle."""
+    case = two_blocks()
+    case["mesh"] = case["mesh"] | {"cells_dimension": [0.5, 0.25, 1.0]}
+    case["materials"].append(UNUSED)
+    wave = max(SOFT.sound_speed(), HEAVY.sound_speed())
+    speed = np.sqrt(3.0**2 + 1.0 + 4.0)
+    assert simulate(case).critical_time_step == pytest.approx(0.25 / (wave + speed))
+
+
+def test_critical_time_step_of_mpm_geomechanics():
+    """The mean cell size, all materials listed, no speed."""
+    case = two_blocks(compatibility="mpm-geomechanics")
+    case["mesh"] = case["mesh"] | {"cells_dimension": [0.5, 0.25, 1.0]}
+    case["materials"].append(UNUSED)
+    assert simulate(case).critical_time_step == pytest.approx(1.75 / 3 / np.sqrt(1e9))
+
+
+@pytest.mark.parametrize("given", [None, 0])
+def test_time_step_is_a_share_of_the_critical_one(given):
+    case = two_blocks(time_step=given, critical_time_step_multiplier=0.125)
+    if given is None:
+        del case["time_step"]
+    simulation = simulate(case)
+    assert simulation.time_step == pytest.approx(0.125 * simulation.critical_time_step)
+
+
+def test_time_step_as_given():
+    assert simulate(two_blocks(time_step=1.0)).time_step == 1.0
+
+
+@pytest.mark.parametrize(
+    "time, wanted, interval",
+    [(1.0, 10, 100), (1.0, 3, 333), (0.999, 10, 99), (0.01, 100, 1), (1.0, 0, 1), (1.0, -1, 1)],
+)
+def test_output_interval(time, wanted, interval):
+    """R = max(1, floor(floor(time / dt) / print))."""
+    simulation = simulate(two_blocks(time=time, results={"print": wanted}))
+    assert simulation.output_interval == interval
+
+
+def test_label_is_the_time_of_the_state():
+    simulation = simulate(two_blocks())
+    assert simulation.label == 0.0
+    assert simulation.step(3).label == simulation.time == pytest.approx(3e-3)
+
+
+def test_label_of_mpm_geomechanics_is_a_step_early():
+    simulation = simulate(two_blocks(compatibility="mpm-geomechanics"))
+    assert simulation.label == 0.0
+    assert simulation.step().label == pytest.approx(0.0, abs=1e-18)
+    assert simulation.step(9).label == pytest.approx(9e-3)
+
+
+# Fields
+
+
+def test_fields_have_a_row_for_each_particle():
+    simulation = simulate(two_blocks()).step(5)
+    for key, shape in {
+        "position": (96, 3),
+        "displacement": (96, 3),
+        "velocity": (96, 3),
+        "stress": (96, 6),
+        "mass": (96,),
+        "volume": (96,),
+        "active": (96,),
+        "id": (96,),
+        "Su": (96,),
+    }.items():
+        assert simulation.field(key).shape == shape
+    with pytest.raises(KeyError):
+        simulation.field("no such field")
+
+
+def test_initial_state():
+    simulation = simulate(two_blocks())
+    assert simulation.field("mass") == pytest.approx(np.repeat([2000 / 64, 1000 / 64], [64, 32]))
+    assert simulation.field("volume") == pytest.approx(np.full(96, 1 / 64))
+    assert not simulation.field("stress").any() and not simulation.field("displacement").any()
+    assert (simulation.field("velocity")[64:] == [3.0, 1.0, -2.0]).all()
+    assert simulation.kinetic_energy() == pytest.approx(0.5 * 500.0 * 14.0)
+
+
+def test_assigned_state_is_in_row_order():
+    """Before the first step, when arrays are still in row order, and after, when they are not."""
+    case = two_blocks()
+    case["mesh"]["origin"] = [-0.5, -0.5, -0.5]  # the lower block lies in eight blocks of nodes
+    simulation = simulate(case)
+    for seed in range(2):
+        random = np.random.default_rng(seed)
+        velocity, stress = random.normal(size=(96, 3)), random.normal(size=(96, 6))
+        simulation.assign("velocity", velocity)
+        simulation.assign("stress", stress.tolist())
+        assert (simulation.field("velocity") == velocity).all()
+        assert (simulation.field("stress") == stress).all()
+        simulation.step(20)
+    assert not (simulation.solver.sets[1].row == np.arange(64)).all()
+
+
+@pytest.mark.parametrize("key", ["position", "mass", "volume", "displacement", "nothing"])
+def test_other_fields_cannot_be_assigned(key):
+    with pytest.raises(KeyError):
+        simulate(two_blocks()).assign(key, np.zeros((96, 3)))
+
+
+@pytest.mark.parametrize("shape", [(95, 3), (97, 3), (96, 6), (96,), (3,)])
+def test_assigned_state_must_fit(shape):
+    simulation = simulate(two_blocks())
+    before = simulation.field("velocity")
+    with pytest.raises((ValueError, IndexError)):
+        simulation.assign("velocity", np.ones(shape))
+    assert (simulation.field("velocity") == before).all()
+
+
+# Nodes
+
+
+def test_no_nodes_before_the_first_step():
+    assert len(simulate(two_blocks()).nodes().mass) == 0
+
+
+def test_nodes_carry_the_mass_and_momentum():
+    case = two_blocks()
+    case["mesh"]["origin"] = [-0.25, 0.0, 0.5]
+    simulation = simulate(case).step()
+    nodes = simulation.nodes()
+    mass, velocity = simulation.field("mass"), simulation.field("velocity")
+    assert nodes.mass.sum() == pytest.approx(mass.sum()) and (nodes.mass > 0).all()
+    assert nodes.mass @ nodes.velocity == pytest.approx(mass @ velocity)
+    assert nodes.position == pytest.approx((nodes.index - 2) * 0.5 + [-0.25, 0.0, 0.5])
+    centre = simulation.solver.population.position
+    assert nodes.mass @ nodes.position == pytest.approx(mass @ centre)
+    assert len(np.unique(nodes.index, axis=0)) == len(nodes.index)
+    assert nodes.index.min() >= 0
+
+
+# Messages
+
+
+def test_departures_are_told():
+    """When the first particle leaves, and how many have left at the end."""
+    case = two_blocks(time=0.5)
+    case["body"][1]["initial_velocity"] = [20.0, 0.0, 0.0]
+    simulation = simulate(case).run()
+    first, last = [m for m in simulation.messages if "mesh" in m and "particle" in m]
+    gone = np.flatnonzero(simulation.field("active") == 0)
+    departures = simulation.solver.departures
+    assert 0 < len(gone) == sum(len(d.rows) for d in departures)
+    assert f"particle {departures[0].rows[0]}, at (" in first
+    assert f"after {departures[0].time:.6g} s" in first
+    assert last.startswith(f"{len(gone)} particles left the mesh")
+    assert f"{departures[-1].time:.6g} s" in last
+    energies = 0.5 * simulation.field("mass") * (simulation.field("velocity") ** 2).sum(axis=1)
+    assert simulation.kinetic_energy() == pytest.approx(np.delete(energies, gone).sum())
+
+
+def test_loads_on_empty_nodes_are_told():
+    loads = [[[1.5, 1.5, 2.0], [0, 0, -1.0]], [[3.5, 2.5, 4.5], [0, 0, -1.0]]]
+    simulation = simulate(two_blocks(nodal_point_load=loads)).step(3)
+    (message,) = [m for m in simulation.messages if "nodal_point_load" in m]
+    assert "entry 2" in message
+
+
+def test_box_loads_push_the_particles_inside():
+    """The load is shared equally; the momentum grows by its impulse."""
+    box = {"point_p1": [0, 0, 2.9], "point_p2": [9, 9, 9], "load": [320.0, 0.0, 64.0]}
+    simulation = simulate(two_blocks(load_distributed_box=[box]))
+    force = simulation.field("external_force")
+    assert force == pytest.approx(np.repeat([[0, 0, 0], [10.0, 0, 2.0]], [64, 32], axis=0))
+    mass, before = simulation.field("mass"), simulation.field("velocity")
+    simulation.step(2)
+    gained = mass @ (simulation.field("velocity") - before)
+    assert gained == pytest.approx([320.0 * 1.5e-3, 0, 64.0 * 1.5e-3])
+
+
+def test_messages_begin_with_those_of_the_case():
+    case = mpmgeo.load_case(two_blocks(shape_functions="GIMP", unknown=1))
+    assert case.warnings or case.notes
+    simulation = mpmgeo.Simulation(case)
+    first = [*case.notes, *case.warnings]
+    assert simulation.messages[: len(first)] == first
+
+
+# What a case is made into
+
+
+@pytest.mark.parametrize(
+    "damping, compatibility, expected",
+    [
+        ({"type": "none"}, None, (None, None, False)),
+        ({"type": "local", "value": 0.2}, None, (0.2, None, False)),
+        ({"type": "local", "value": 0.0}, None, (None, None, False)),
+        ({"type": "kinetic"}, None, (None, None, True)),
+        ({"type": "local", "value": 0.2}, "mpm-geomechanics", (None, 0.2, False)),
+    ],
+)
+def test_damping_reaches_the_solver(damping, compatibility, expected):
+    extra = {} if compatibility is None else {"compatibility": compatibility}
+    solver = simulate(two_blocks(damping=damping, **extra)).solver
+    assert (solver.local, solver.delayed, solver.settles) == expected
+
+
+@pytest.mark.parametrize("shape, share", [("GIMP", 1e-24), ("linear", 1e-12)])
+def test_cut_off_follows_the_lightest_particle(shape, share):
+    """The mass that it has on a node that it reaches over by 1e-12 of a cell; once it was none."""
+    keys = {"shape_function": shape}
+    assert simulate(two_blocks(**keys)).solver.cutoff == pytest.approx(share * 1000 / 64)
+    old = simulate(two_blocks(compatibility="mpm-geomechanics", **keys))
+    assert old.solver.cutoff == 0.0
+
+
+def test_symbols_are_made_once(monkeypatch):
+    """A law's constants are computed when the solver is built, not step by step."""
+    simulation = simulate(two_blocks())
+    monkeypatch.setattr(Elastic, "symbols", property(lambda law: pytest.fail("made again")))
+    simulation.step(3)
+    with pytest.raises(pytest.fail.Exception):
+        _ = RUBBER.symbols
+
+
+def test_inactive_bodies_and_unused_materials_cost_nothing():
+    case = two_blocks()
+    case["body"][0]["active"] = False
+    simulation = simulate(case).step()
+    assert len(simulation.solver.sets) == 1
+    assert (simulation.field("body") == 1).all() and len(simulation.field("id")) == 32
+
+
+def test_a_case_without_particles_runs(tmp_path):
+    """A body too small for any particle: nothing happens, but nothing fails either."""
+    dot = {"type": "sphere", "center": [2, 1.5, 2.5], "diameter": 0.01, "material_id": 9}
+    case = two_blocks(body=[dot], results={"material_point_results": ["all"]})
+    simulation = simulate(case, output=tmp_path).run()
+    assert simulation.field("velocity").shape == (0, 3)
+    assert simulation.field("stress").shape == (0, 6)
+    assert simulation.kinetic_energy() == 0.0
+
+
+def test_sides_are_all_named():
+    assert set(SIDES) == set(simulate(two_blocks()).case.mesh.boundary_conditions.kinds())
