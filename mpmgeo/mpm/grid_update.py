@@ -143,8 +143,10 @@ def update_momentum(
                 i, j, k = I * SIDE + n // 16, J * SIDE + n // 4 % 4, K * SIDE + n % 4
                 vx, vy, vz, ax, ay, az, _, _, _ = integrated(
                     planes, mesh, base, pull, drives, local, delayed, owner, given, before, after,
-                    h if m > cutoff else 0.0, bounded, b * NODES + n, i, j, k, r, load(nodes, at),
+                    h, bounded, b * NODES + n, i, j, k, r, load(nodes, at),
                 )  # fmt: skip
+                if not m > cutoff:
+                    vx, vy, vz = vx - ax * h, vy - ay * h, vz - az * h
                 store(nodes, at, pack(vx, vy, vz, ax, ay, az, m, 0.0))
 
 
