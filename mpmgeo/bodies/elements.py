@@ -89,8 +89,10 @@ class Element:
             is_found = self._refine(ξ, nodes[which], points, size) if not self._is_affine else True
             x, y, z = ξ.T
             if self._is_tetrahedron:
-                return is_found & (np.minimum(np.minimum(x, y), np.minimum(z, 1 - x - y - z)) >= -SLACK)
-            return is_found & (np.maximum(np.maximum(abs(x), abs(y)), abs(z)) <= 1 + SLACK)
+                inside = (x >= -SLACK) & (y >= -SLACK) & (z >= -SLACK) & (x + y + z <= 1 + SLACK)
+            else:
+                inside = (abs(x) <= 1 + SLACK) & (abs(y) <= 1 + SLACK) & (abs(z) <= 1 + SLACK)
+            return is_found & inside
 
     def _estimate(self, nodes, which, points):
         """Return where the points would be in the reference element if the elements were affine."""

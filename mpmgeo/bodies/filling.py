@@ -1,9 +1,9 @@
 """Fill volume elements with particles at a given spacing, their volume shared out to the particles.
 
 Space is divided into boxes of the spacing. A box whose middle lies in an element holds a particle
-there, and the element's volume is shared equally by the middles that it contains. An element without
-any gives its volume to the particle of the box that it lies in; if there is none, all such elements
-of a box make one particle together, at the middle of their volume.
+there, and the element's volume is shared by the middles that it contains. An element without any
+gives its volume to the particle of the box that it lies in; if there is none, all such elements of
+a box make one particle together, at the middle of their volume.
 """
 
 from collections.abc import Iterator
@@ -58,7 +58,7 @@ def _joined(key, center, volume):
 
 
 def _middles(pieces, start, spacing):
-    """Return elements (n,), counted through all pieces, and boxes (n, 3) whose middles they hold."""
+    """Return elements (n,), counted through all pieces, and boxes (n, 3) that they hold."""
     found = [(np.empty(0, np.int64), np.empty((0, 3), np.int64))]
     before = 0
     for piece in pieces:
@@ -80,7 +80,7 @@ def _keys(*boxes):
 
 
 def _middles_inside(piece, start, spacing) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-    """Yield elements (n,) and the boxes (n, 3) whose middles they contain, z fastest, in batches."""
+    """Yield elements (n,) and the boxes (n, 3) whose middles they contain, in batches."""
     low, high = piece.nodes.min(axis=1), piece.nodes.max(axis=1)
     if not piece.element.is_linear:
         low, high = low - BULGE * (high - low), high + BULGE * (high - low)

@@ -78,15 +78,16 @@ class Particles(Body):
 
     def clouds(self, cell: np.ndarray) -> tuple[Cloud, ...]:
         """Return the particles as cubes, whatever the cells."""
-        listing, number = self.particles, self.particles.number
+        listing, first = self.particles, slice(self.particles.number)
         material = self.material_id
         if material is None:
-            material = np.array(listing.material_id[:number], np.int64)
-        return (cubes(listing.position[:number], listing.volume[:number], material, listing.surplus),)
+            material = np.array(listing.material_id[first], np.int64)
+        cloud = cubes(listing.position[first], listing.volume[first], material)
+        return (cloud._replace(notes=listing.surplus),)
 
 
-def cubes(position, volume, material, notes=()) -> Cloud:
+def cubes(position, volume, material) -> Cloud:
     """Return cubic particles at `position` (n, 3) [m] with `volume` (n,) [m³]."""
     position = np.array(position, dtype=np.float64).reshape(-1, 3)
     edge = np.cbrt(np.asarray(volume, dtype=np.float64))
-    return Cloud(position, np.repeat(edge[:, None], 3, axis=1), tuple(notes), material)
+    return Cloud(position, np.repeat(edge[:, None], 3, axis=1), material=material)

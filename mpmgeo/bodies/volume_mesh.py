@@ -10,7 +10,7 @@ from mpmgeo.bodies.elements import ELEMENTS, Element
 
 VOLUME = 3
 FOLDED = 0.1
-"""Share of an element's volume that may be turned inside out, as near corners of curved elements."""
+"""Share of an element's volume that may be inside out, as near corners of curved elements."""
 
 
 class Piece(NamedTuple):
@@ -99,7 +99,8 @@ class VolumeMesh:
         if broken.any():
             number, first = np.count_nonzero(broken), int(broken.argmax())
             near = ", ".join(f"{x:g}" for x in nodes[first].mean(axis=0))
-            raise ValueError(f"{where} has {number} {kind} without volume or folded, one at ({near}) m")
+            problem = f"{number} {kind} without volume or folded"
+            raise ValueError(f"{where} has {problem}, one at ({near}) m")
         return Piece(element, nodes, size)
 
 

@@ -1,6 +1,7 @@
 """From a case to the solver that runs it: the only place that knows every package."""
 
 from math import inf
+from pathlib import Path
 
 import numpy as np
 
@@ -18,6 +19,8 @@ from mpmgeo.output.particle_fields import WITH_STRAIN
 from mpmgeo.shapes import SHAPES
 from mpmgeo.state.grid import Grid, Mesh
 from mpmgeo.state.particles import ParticleSet
+from mpmgeo.state.stress_file import NAME as STRESS_FILE
+from mpmgeo.state.stress_file import read_stress
 
 TOUCH = 1e-12  # cells by which a particle must reach over a node; less is round-off
 HALF = 0.5  # cells: the largest half-size for which the shapes sum to one
@@ -37,6 +40,8 @@ def build(case):
     delayed = legacy and case.stress_scheme_update != "USF"
     tools, tool = bind_tools(case, population, velocity)
     sets = _sets(case, population, velocity, law, tool, notes)
+    if case.load_state:
+        _load_stress(case, sets, len(population.position))
     lightest = min((float(s.m.min()) for s in sets), default=0.0)
     solver = Solver(
         grid=Grid(mesh, shape.width),
@@ -117,6 +122,18 @@ def _sets(case, population, velocity, laws, tool, notes):
             )
         )
     return sets
+
+
+def _load_stress(case, sets, count):
+    """Give the particles the stresses of the file beside the case, or where the run begins."""
+    folders = dict.fromkeys((case.folder, Path.cwd()))
+    found = [folder / STRESS_FILE for folder in folders if (folder / STRESS_FILE).is_file()]
+    if not found:
+        where = " or ".join(map(str, folders))
+        raise ValueError(f"load_state: there is no file {STRESS_FILE} in {where}")
+    stress = read_stress(found[0], count)
+    for s in sets:
+        s.stress[:] = stress[s.row]
 
 
 def _half_sizes(half, notes):

@@ -5,7 +5,8 @@ from pathlib import Path
 
 from mpmgeo.case.kinds import declared, word_of
 
-FREE = ("title", "reference", "expected", "time", "n_threads", "snapshot", "load_state", "save_state")
+TEXTS = ("title", "reference", "expected")
+FREE = (*TEXTS, "time", "n_threads", "snapshot", "load_state", "save_state")
 """Keys that may change while a run goes on."""
 
 

@@ -22,8 +22,6 @@ class Unsupported(NamedTuple):
 
 UNSUPPORTED = {
     ("n_phases",): Unsupported("two phases", (2,)),
-    ("save_state",): Unsupported("saving the state", (True,)),
-    ("load_state",): Unsupported("loading a state", (True,)),
     ("terrain_contact", "active"): Unsupported("contact with a terrain"),
 }
 

@@ -35,6 +35,7 @@ from mpmgeo.output.fields import (
 )
 from mpmgeo.output.probes import PROBES
 from mpmgeo.parameters import Counts, Vector, parameter
+from mpmgeo.run.snapshots import SnapshotPlan
 from mpmgeo.shapes import SHAPES
 
 Law = reduce(or_, LAWS)
@@ -169,10 +170,13 @@ class Case:
     )
     gravity: Vector = parameter("Acceleration of gravity", unit="m/s²", default=(0.0, 0.0, 0.0))
     save_state: bool = parameter(
-        "Whether the final stresses are saved", choices=(False,), default=False
+        "Whether the final stresses are saved, in particle_stress_data.json", default=False
     )
     load_state: bool = parameter(
-        "Whether saved stresses are the initial ones", choices=(False,), default=False
+        "Whether the stresses of particle_stress_data.json are the initial ones", default=False
+    )
+    snapshot: SnapshotPlan | None = parameter(
+        "Complete states of the run, from which it can go on", default=None
     )
     compatibility: str | None = parameter(
         "Reproduce deliberate differences to the program named here",

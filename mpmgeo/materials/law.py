@@ -1,4 +1,4 @@
-"""What every material law declares, and what it provides to the kernels: the update of one point."""
+"""What every material law declares, and what it gives to the kernels: the update of one point."""
 
 from dataclasses import dataclass
 
@@ -19,7 +19,7 @@ class Law:
         return self.symbols
 
     def critical_time_step(self, cell: float, speed: float) -> float:
-        """Return the time [s] in which a wave crosses a `cell` [m], particles moving at `speed` [m/s]."""
+        """Return the time [s] of a wave across a `cell` [m], particles moving at `speed` [m/s]."""
         return cell / (self.sound_speed() + speed)
 
 

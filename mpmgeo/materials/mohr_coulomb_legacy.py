@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 from mpmgeo.materials.elastic import hooke
 from mpmgeo.materials.law import update_stress
-from mpmgeo.materials.mohr_coulomb_strength import flow_number
+from mpmgeo.materials.mohr_coulomb_return import flow_number
 from mpmgeo.numerics.jit import inlined
 from mpmgeo.numerics.tensors import on_same_axes, principal
 
@@ -57,7 +57,7 @@ def strengths(law, zz, εp):
 
 @inlined
 def one_plane(law, s1, s2, s3, N, M, c, T):
-    """Return the principal stresses after the return to one of the planes, and the plastic strain."""
+    """Return the principal stresses after the return to a plane, and the plastic strain."""
     A, B = law.λ + law.G2, law.λ
     fs = s1 - s3 * N + 2.0 * c * sqrt(N)
     h = s3 - T + (sqrt(1.0 + N * N) + N) * (s1 - T * N + 2.0 * c * sqrt(N))
@@ -65,7 +65,7 @@ def one_plane(law, s1, s2, s3, N, M, c, T):
         l = fs / ((A - B * M) - (B - A * M) * N)
         εp = abs(l) * sqrt(2.0 / 3.0 * (1.0 + M * M))
         return s1 - l * (A - B * M), s2 - l * B * (1.0 - M), s3 - l * (B - A * M), εp
-    if T < s3 and h > 0.0:
+    if s3 > T and h > 0.0:
         l = (T - s3) / A
         return s1 + l * B, s2 + l * B, s3 + l * A, abs(l) * sqrt(2.0 / 3.0)
     return s1, s2, s3, 0.0

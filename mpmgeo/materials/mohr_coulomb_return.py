@@ -1,4 +1,4 @@
-"""Return of principal stresses to the Mohr–Coulomb surface with a tension cut-off.
+"""The Mohr–Coulomb surface with a tension cut-off, and the return of principal stresses to it.
 
 Trial stresses s₁ ≤ s₂ ≤ s₃ beyond one of
 
@@ -10,8 +10,8 @@ the surfaces on which the result lies and no others. For M = N the result is the
 nearest to the trial one in the energy norm. For M < N the tension planes close the apex, where
 shear flow alone would leave trial stresses without a return.
 
-What is on the edge s₂ = s₃ flows as the mean of the two: so the edges are planes in fewer variables,
-and each part of the surface has a formula of its own:
+On the edge s₂ = s₃ only the mean of the two counts: so edges are planes in fewer variables, and
+each part of the surface has a formula of its own:
 
     shear only       plane, or edge s₂ = s₃, or edge s₁ = s₂
     tension only     plane s₃ = T, or edge s₂ = s₃ = T, or corner s₁ = s₂ = s₃ = T
@@ -22,7 +22,21 @@ Source: Koiter (1953), Q. Appl. Math. 11, 350–354; the parts of the surface ar
 Damkilde and Andersen (2007), Comput. Struct. 85, 1795–1807.
 """
 
+from math import inf, sin
+
 from mpmgeo.numerics.jit import inlined
+
+
+@inlined
+def flow_number(angle):
+    """Return (1 + sin φ)/(1 − sin φ), the ratio of principal stresses at failure if c = 0."""
+    return (1.0 + sin(angle)) / (1.0 - sin(angle))
+
+
+@inlined
+def cut_off(N, σc, T):
+    """Return the tension cut-off, at most at the apex."""
+    return min(T, σc / (N - 1.0) if N > 1.0 else inf)
 
 
 @inlined

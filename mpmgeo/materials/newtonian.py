@@ -2,8 +2,8 @@
 
     σ = (σm + κ tr(Δε)) I + 2μ (D − ⅓ tr(D) I),    D = Δε/Δt
 
-σm is the mean of the old stress: pressure accumulates, viscous stress does not. There is no
-cavitation: the mean stress may become tensile.
+σm is the mean of the old stress: pressure accumulates, viscous stress does not, so that rotation
+changes nothing. There is no cavitation: the mean stress may become tensile.
 
 Source: Batchelor, An Introduction to Fluid Dynamics (1967), eq. (3.3.11).
 """
@@ -43,10 +43,10 @@ class Newtonian(Law):
         return sqrt(self.bulk / self.density)
 
     def critical_time_step(self, cell: float, speed: float) -> float:
-        """Return the largest stable time step [s] in cells of `cell` [m], particles at `speed` [m/s].
+        """Return the largest stable step [s] in a `cell` [m] where particles move at `speed` [m/s].
 
-        The fastest wave the cell can hold, ω = 2c/h, is damped by the share ξ = 4μ/(3ρch) of the
-        critical: Δt = 2/ω (√(1 + ξ²) − ξ), which for large viscosity is 3ρh²/(8μ). Source:
+        The fastest wave that cells of the size h hold, ω = 2c/h, is damped by ξ = 4μ/(3ρch) times
+        the critical damping: Δt = 2/ω (√(1 + ξ²) − ξ), for large viscosity 3ρh²/(8μ). Source:
         Belytschko, Liu and Moran, Nonlinear Finite Elements (2000), section 6.2.
         """
         ξ = 4 * self.viscosity / (3 * self.density * self.sound_speed() * cell)

@@ -4,14 +4,15 @@
     Hughes–Winget    σ ← R σ Rᵀ,    R = I + (W + ½ W²)/(1 + ¼ w²)   w the axial vector of W
 
 The Jaumann rate is taken to first order, as in MPM-Geomechanics: it does not preserve the size of
-the stress, but lets the deviator grow by ½ w² of itself in a step. R is orthogonal.
+the stress, but lets the deviator grow by up to 2w² of itself in a step. R is orthogonal.
 
-Source: Hughes and Winget (1980), Int. J. Numer. Methods Eng. 15, 1862–1867, eq. (13).
+Source: Hughes and Winget (1980), Int. J. Numer. Methods Eng. 15, 1862–1867.
 """
 
 from typing import NamedTuple
 
 from mpmgeo.numerics.dispatch import generic
+from mpmgeo.numerics.jit import inlined
 from mpmgeo.parameters import parameter
 
 
@@ -62,19 +63,27 @@ def jaumann(rotation, stress, spin):
     )
 
 
+@inlined
+def times_row(σ, x, y, z):
+    """Return the product of a row vector and a symmetric tensor."""
+    return (
+        x * σ[0] + y * σ[3] + z * σ[5],
+        x * σ[3] + y * σ[1] + z * σ[4],
+        x * σ[5] + y * σ[4] + z * σ[2],
+    )
+
+
 @rotate_stress.register(HughesWinget)
 def hughes_winget(rotation, stress, spin):
-    xx, yy, zz, xy, yz, xz = stress
     a, b, c = spin
     q = 1.0 / (1.0 + 0.25 * (a * a + b * b + c * c))
     h = 0.5 * q
     R00, R01, R02 = 1.0 - h * (a * a + c * c), q * a - h * b * c, q * c + h * a * b
     R10, R11, R12 = -q * a - h * b * c, 1.0 - h * (a * a + b * b), q * b - h * a * c
     R20, R21, R22 = h * a * b - q * c, -q * b - h * a * c, 1.0 - h * (b * b + c * c)
-    # P = R σ, then σ = P Rᵀ
-    P00, P01, P02 = R00 * xx + R01 * xy + R02 * xz, R00 * xy + R01 * yy + R02 * yz, R00 * xz + R01 * yz + R02 * zz
-    P10, P11, P12 = R10 * xx + R11 * xy + R12 * xz, R10 * xy + R11 * yy + R12 * yz, R10 * xz + R11 * yz + R12 * zz
-    P20, P21, P22 = R20 * xx + R21 * xy + R22 * xz, R20 * xy + R21 * yy + R22 * yz, R20 * xz + R21 * yz + R22 * zz
+    P00, P01, P02 = times_row(stress, R00, R01, R02)
+    P10, P11, P12 = times_row(stress, R10, R11, R12)
+    P20, P21, P22 = times_row(stress, R20, R21, R22)
     return (
         P00 * R00 + P01 * R01 + P02 * R02,
         P10 * R10 + P11 * R11 + P12 * R12,

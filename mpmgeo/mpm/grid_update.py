@@ -14,7 +14,7 @@ from mpmgeo.numerics.simd import LANES, add, lane, load, pack, splat, store
 from mpmgeo.shapes.shape import width
 from mpmgeo.state.grid import NODES, SIDE
 
-ROUND_OFF = 1e-9  # share of a node's mass below which what is not the tool's is round-off
+ROUND_OFF = 1e-14  # share of a node's mass below which what is not the tool's is round-off
 
 
 @inlined
@@ -69,7 +69,7 @@ def _driven(m, tool, momentum, a, before, after, h):
 
 @inlined
 def integrated(
-    planes, mesh, base, pull, drives, local, delayed, owner, given, before, after, h,
+    planes, mesh, base, pull, drives, local, delayed, owner, given, before, after, h, cutoff,
     bounded, n, i, j, k, r, u,
 ):  # fmt: skip
     """Return velocity and acceleration of node n, and the force on it of the planes or its tool.
@@ -99,7 +99,8 @@ def integrated(
         if bounded:
             ax, ay, az = constrain(planes, mesh, i, j, k, ax, ay, az, pull, True)
     fx, fy, fz = m * (ax - ex), m * (ay - ey), m * (az - ez)
-    vx, vy, vz = vx + ax * h, vy + ay * h, vz + az * h
+    q = h if m > cutoff else 0.0
+    vx, vy, vz = vx + ax * q, vy + ay * q, vz + az * q
     if owner is not None:
         t, s = owner[n], lane(r, 7)
         if t >= 0 and given[t, 0] > 0.0:
@@ -143,10 +144,8 @@ def update_momentum(
                 i, j, k = I * SIDE + n // 16, J * SIDE + n // 4 % 4, K * SIDE + n % 4
                 vx, vy, vz, ax, ay, az, _, _, _ = integrated(
                     planes, mesh, base, pull, drives, local, delayed, owner, given, before, after,
-                    h, bounded, b * NODES + n, i, j, k, r, load(nodes, at),
+                    h, cutoff, bounded, b * NODES + n, i, j, k, r, load(nodes, at),
                 )  # fmt: skip
-                if not m > cutoff:
-                    vx, vy, vz = vx - ax * h, vy - ay * h, vz - az * h
                 store(nodes, at, pack(vx, vy, vz, ax, ay, az, m, 0.0))
 
 

@@ -70,12 +70,13 @@ def add_forces(
             sum_tiles(tiles, below, b, row, reach, scratch, first)
             for n in range(NODES):
                 r = load(scratch, first + n * LANES)
-                if not lane(r, 0) > cutoff:
+                if not lane(r, 0) > 0.0:
                     continue
                 i, j, k = I * SIDE + n // 16, J * SIDE + n // 4 % 4, K * SIDE + n % 4
                 _, _, _, _, _, _, fx, fy, fz = integrated(
                     planes, mesh, base, pull, drives, local, delayed, owner, given, before, after,
-                    h, bounded, b * NODES + n, i, j, k, r, load(nodes, (b * NODES + n) * LANES),
+                    h, cutoff, bounded, b * NODES + n, i, j, k, r,
+                    load(nodes, (b * NODES + n) * LANES),
                 )  # fmt: skip
                 hx = _holder(planes, mesh, i, j, k, 0)
                 hy = _holder(planes, mesh, i, j, k, 1)

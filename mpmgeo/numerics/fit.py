@@ -15,14 +15,13 @@ FLAT = 1e-9
 
 
 def linear_fit(x, group, y, w, f):
-    """Return the values (n, …) at places x (n, 3) from neighbours y (k, 3) with values f (k, …).
+    """Return the values (n,) or (n, c) at places x (n, 3) from those of their neighbours.
 
-    group (k,): the place each neighbour belongs to; w (k,): positive weights. Places without
-    neighbours get NaN.
+    y (k, 3), f (k,) or (k, c): positions and values of the neighbours, group (k,): the place that
+    each belongs to, w (k,): positive weights. Places without neighbours get NaN.
     """
     n = len(x)
-    f = np.asarray(f, float)
-    flat = f.reshape(len(f), -1)
+    flat = f[:, None] if f.ndim == 1 else f
     total = np.bincount(group, w, n)
 
     def mean(values):
@@ -33,11 +32,12 @@ def linear_fit(x, group, y, w, f):
     y_mean, f_mean = mean(y), mean(flat)
     dy, df = y - y_mean[group], flat - f_mean[group]
     C = mean((dy[:, :, None] * dy[:, None, :]).reshape(-1, 9)).reshape(n, 3, 3)
-    b = mean((dy[:, :, None] * df[:, None, :]).reshape(len(y), -1)).reshape(n, 3, -1)
+    columns = flat.shape[1]
+    b = mean((dy[:, :, None] * df[:, None, :]).reshape(-1, 3 * columns)).reshape(n, 3, columns)
     known = total > 0
     values, axes = np.linalg.eigh(np.where(known[:, None, None], C, 0.0))
     extent = values > FLAT * values[:, -1:]
     inverse = np.where(extent, 1 / np.where(extent, values, 1.0), 0.0)
     g = axes @ (inverse[:, :, None] * (axes.transpose(0, 2, 1) @ np.nan_to_num(b)))
     fit = f_mean + ((x - y_mean)[:, None, :] @ g)[:, 0]
-    return fit.reshape(n, *f.shape[1:])
+    return fit[:, 0] if f.ndim == 1 else fit

@@ -1,4 +1,4 @@
-"""Symmetric 3×3 tensors in kernels: principal values, and a tensor of other values on the same axes.
+"""Symmetric 3×3 tensors in kernels: principal values, and tensors of others on the same axes.
 
 Six components xx yy zz xy yz xz. The principal values of the deviator, scaled to √(J₂/3) = 1 and
 turned so that det ≥ 0, are the roots of
@@ -17,7 +17,8 @@ gives the other two roots −½x ± ½g: no difference of nearly equal numbers, 
 values are as accurate as others. No axis of its own is ever needed: where two values coincide, M
 vanishes and with it whatever would depend on the choice of axes.
 
-Source: the projectors are Sylvester's, as in Hartmann (2003), Comput. Mech. 31; the use of M is ours.
+Source: closed forms and their round-off are discussed by Hartmann (2003), Tech. Mech. 23, 283–294;
+Newton's method and M, which avoid the latter, are ours.
 """
 
 from math import copysign, sqrt
@@ -27,33 +28,33 @@ from mpmgeo.numerics.jit import inlined
 
 @inlined
 def invariants(a):
-    """Return the mean of the principal values, and J₂, half the square of the deviator."""
+    """Return the mean of the principal values, and √(J₂/3), J₂ half the square of the deviator."""
     m = (a[0] + a[1] + a[2]) / 3.0
     x, y, z = a[0] - m, a[1] - m, a[2] - m
     shear = a[3] * a[3] + a[4] * a[4] + a[5] * a[5]
-    return m, 0.5 * (x * x + y * y + z * z) + shear
+    return m, sqrt((0.5 * (x * x + y * y + z * z) + shear) / 3.0)
 
 
 @inlined
 def principal(a):
-    """Return the principal values, ascending, and the frame of the tensor: a flat tuple of 3 and 14.
+    """Return the principal values, ascending, and the frame of a tensor: a flat tuple of 3 and 14.
 
     The values are accurate to round-off of the largest one, however near to each other they are.
     """
-    m, J2 = invariants(a)
-    s = sqrt(J2 / 3.0)
+    m, s = invariants(a)
     u = 1.0 / s if s > 0.0 else 0.0
-    x, y, z, xy, yz, xz = (a[0] - m) * u, (a[1] - m) * u, (a[2] - m) * u, a[3] * u, a[4] * u, a[5] * u
+    x, y, z = (a[0] - m) * u, (a[1] - m) * u, (a[2] - m) * u
+    xy, yz, xz = a[3] * u, a[4] * u, a[5] * u
     r = 0.5 * (x * (y * z - yz * yz) - xy * (xy * z - yz * xz) + xz * (xy * yz - y * xz))
     turn = copysign(1.0, r)
     x, y, z, xy, yz, xz = turn * x, turn * y, turn * z, turn * xy, turn * yz, turn * xz
     r = abs(r)
 
-    # 2 cos(⅓ arccos r) to 1e-4, then to round-off
-    t = 1.73213266 + r * (0.3306607 + r * (-0.08138239 + r * 0.01863937))
+    # 2 cos(⅓ arccos r) to 3e-8, then to round-off
+    r2 = r * r
+    t = -0.028579130 + 0.0153286035 * r + r2 * (-0.005845661 + 0.00108521542 * r)
+    t = 1.73205083 + 0.333330086 * r + r2 * (-0.0961547007 + 0.0487847677 * r + r2 * t)
     t -= (t * (t * t - 3.0) - 2.0 * r) / (3.0 * t * t - 3.0)
-    q = 3.0 * t * t - 3.0
-    t -= (t * (t * t - 3.0) - 2.0 * r) / q
     q = 1.0 / (3.0 * t * t - 3.0)
 
     c, d = t * q, (t * t - 3.0) * q
@@ -68,7 +69,8 @@ def principal(a):
     M3, M4, M5 = xy + k * N3, yz + k * N4, xz + k * N5
     g = sqrt(2.0 * (M0 * M0 + M1 * M1 + M2 * M2) + 4.0 * (M3 * M3 + M4 * M4 + M5 * M5))
 
-    far, near, middle = m + turn * s * t, m + turn * s * (0.5 * (-t - g)), m + turn * s * (0.5 * (g - t))
+    k = turn * s
+    far, near, middle = m + k * t, m - 0.5 * k * (t + g), m - 0.5 * k * (t - g)
     low, high = (near, far) if turn > 0.0 else (far, near)
     return low, middle, high, turn, g, N0, N1, N2, N3, N4, N5, M0, M1, M2, M3, M4, M5
 

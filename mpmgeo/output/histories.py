@@ -82,11 +82,12 @@ class Histories:
 
     def begin(self, simulation):
         """Make the files with their first rows."""
-        goes_on = simulation.steps > 0
+        goes_on = simulation.goes_on
         for history in self.histories:
             history.begin(simulation.label, goes_on)
         if not goes_on:
             self._add(simulation)
+            self._flush()
 
     def after_step(self, simulation):
         """Add the rows that are due."""

@@ -13,7 +13,7 @@ class SnapshotPlan:
     """When the complete state is written, from which a run can go on."""
 
     every: int = parameter("Steps between two snapshots", minimum=1)
-    keep: int = parameter("Number of snapshots that are kept, the latest ones", minimum=1, default=2)
+    keep: int = parameter("Number of snapshots that are kept, the last ones", minimum=1, default=2)
 
 
 class Snapshots:

@@ -39,16 +39,10 @@ def write_snapshot(file: BinaryIO, snapshot: Snapshot) -> None:
 def read_snapshot(path: Path | str) -> Snapshot:
     """Read a snapshot; raises ValueError if it is none, broken, or of another version."""
     try:
-        with np.load(path, allow_pickle=False) as archive:
-            entries = {name: archive[name] for name in archive.files}
+        with Path(path).open("rb") as file:
+            entries = _entries(file, path)
     except OSError as error:
-        if error.strerror:
-            raise ValueError(f"{path}: cannot be read ({error.strerror})") from None
-        raise ValueError(f"{path}: is no snapshot") from None
-    except (ValueError, EOFError, KeyError, AttributeError, TypeError):
-        raise ValueError(f"{path}: is no snapshot") from None
-    except (zipfile.BadZipFile, zlib.error, NotImplementedError, MemoryError):
-        raise ValueError(f"{path}: the file is broken, or not complete") from None
+        raise ValueError(f"{path}: cannot be read ({error.strerror})") from None
     checksum, facts = entries.pop("checksum", None), _facts(entries.get("facts"))
     if checksum is None or facts is None:
         raise ValueError(f"{path}: is no snapshot")
@@ -71,6 +65,17 @@ def program() -> str:
         return f"mpmgeo {version('mpmgeo')}"
     except PackageNotFoundError:
         return "mpmgeo, not installed"
+
+
+def _entries(file, path):
+    """Return all arrays of an archive; raises ValueError if it is none, or broken."""
+    try:
+        with np.load(file, allow_pickle=False) as archive:
+            return {name: archive[name] for name in archive.files}
+    except (zipfile.BadZipFile, zlib.error, NotImplementedError, MemoryError, OSError):
+        raise ValueError(f"{path}: the file is broken, or not complete") from None
+    except (ValueError, EOFError, KeyError, AttributeError, TypeError):
+        raise ValueError(f"{path}: is no snapshot") from None
 
 
 def _facts(text):

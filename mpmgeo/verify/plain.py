@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mpmgeo.boundaries.planes import FIXED, SLIDING
-from mpmgeo.materials.law import update_stress
+from mpmgeo.mpm.point import advance
 from mpmgeo.mpm.schemes import musl, usf, usl
 from mpmgeo.numerics.jit import compiled, inlined
 from mpmgeo.shapes.shape import stencil, width
@@ -139,7 +139,7 @@ def held(free, n, a):
 
 
 @compiled
-def gather(shape, box, law, rows, half, x, v, V, stress, A, drift, U, dt, h):
+def gather(shape, box, law, rotation, rows, half, x, v, V, stress, state, A, drift, U, dt, h):
     """Change v by the nodal A, move x with `drift`, strain with U; what is None is left out.
 
     `law` None: no strain.
@@ -167,25 +167,17 @@ def gather(shape, box, law, rows, half, x, v, V, stress, A, drift, U, dt, h):
             v[p, c] += h * a[c]
             x[p, c] += dt * u[c]
         if law is not None:
-            strain(law, dx, dy, dz, V, stress, p, dt)
+            strain(law, rotation, dx, dy, dz, V, stress, state, p, dt)
 
 
 @inlined
-def strain(law, dx, dy, dz, V, stress, p, dt):
-    """Update volume and stress of particle p; `dx` … are the columns of its velocity gradient."""
-    ε = (
-        dx[0] * dt,
-        dy[1] * dt,
-        dz[2] * dt,
-        0.5 * (dx[1] + dy[0]) * dt,
-        0.5 * (dy[2] + dz[1]) * dt,
-        0.5 * (dz[0] + dx[2]) * dt,
-    )
-    V[p] *= 1.0 + (ε[0] + ε[1] + ε[2])
-    s = stress[p]
-    new = update_stress(law, (s[0], s[1], s[2], s[3], s[4], s[5]), ε, (), dt)
-    for c in range(6):
-        stress[p, c] = new[c]
+def strain(law, rotation, dx, dy, dz, V, stress, state, p, dt):
+    """Update the material of particle p; `dx` … are the columns of its velocity gradient."""
+    x, y, z = plus(ZERO, dt, dx), plus(ZERO, dt, dy), plus(ZERO, dt, dz)
+    xy, yz, xz = 0.5 * (x[1] + y[0]), 0.5 * (y[2] + z[1]), 0.5 * (z[0] + x[2])
+    ε = x[0], y[1], z[2], xy, yz, xz
+    W = 0.5 * (y[0] - x[1]), 0.5 * (z[1] - y[2]), 0.5 * (z[0] - x[2])
+    advance(law, rotation, ε, W, V, stress, state, None, p, dt)
 
 
 @compiled
@@ -219,14 +211,13 @@ def free_components(box, planes):
 class PlainSolver:
     """A copy of a solver's state that steps on by itself; its arrays are in row order.
 
-    Raises ValueError for a moving base, point loads, damping other than local, laws with variables.
+    `state` has the variables of each set's law, for all rows. Raises ValueError for a moving base,
+    point loads and damping other than local.
     """
 
     def __init__(self, solver):
         if solver.base or solver.point_loads or solver.delayed or solver.settles:
             raise ValueError("no moving base, point loads or damping but local in the plain solver")
-        if any(s.law.STATE for s in solver.sets):
-            raise ValueError("no laws with variables in the plain solver")
         self.shape, self.time_step, self.steps = solver.shape, solver.time_step, solver.steps
         self.local, self.cutoff = solver.local, solver.cutoff
         mesh = solver.grid.mesh
@@ -249,12 +240,16 @@ class PlainSolver:
             self.force[s.row] = s.m[:, None] * solver.gravity
             if s.force is not None:
                 self.force[s.row] += s.force
-        self.sets = [(s.law, np.sort(s.row[: s.active])) for s in solver.sets]
+        self.sets = [(s.law, s.rotation, np.sort(s.row[: s.active])) for s in solver.sets]
+        self.state = [np.zeros((n, len(s.law.STATE))) for s in solver.sets]
+        for s, state in zip(solver.sets, self.state, strict=True):
+            if s.state is not None:
+                state[s.row] = s.state
 
     def step(self):
         """Advance by one time step; the first one changes velocities by half a step."""
         if leave(self.box, self.x, self.active):
-            self.sets = [(law, rows[self.active[rows]]) for law, rows in self.sets]
+            self.sets = [(*laws, rows[self.active[rows]]) for *laws, rows in self.sets]
         self._scheme(0.5 * self.time_step if self.steps == 0 else self.time_step)
         self.steps += 1
 
@@ -284,7 +279,7 @@ class PlainSolver:
         for nodal in (M, P, F):
             if nodal is not None:
                 nodal[:] = 0.0
-        for _, rows in self.sets:
+        for *_, rows in self.sets:
             scatter(
                 *(self.shape, self.box, rows, self.half, self.x, self.v, self.m),
                 *(self.V, self.stress, self.force, M, P, F),
@@ -294,8 +289,9 @@ class PlainSolver:
         update_nodes(h, self.local, self.cutoff, self.free, self.M, self.P, F, self.U, self.A)
 
     def _gather(self, h, A, drift, strains=False):
-        for law, rows in self.sets:
+        for (law, rotation, rows), state in zip(self.sets, self.state, strict=True):
             gather(
-                *(self.shape, self.box, law if strains else None, rows, self.half, self.x, self.v),
-                *(self.V, self.stress, A, drift, self.U, self.time_step, h),
+                *(self.shape, self.box, law if strains else None, rotation, rows, self.half),
+                *(self.x, self.v, self.V, self.stress, state, A, drift, self.U),
+                *(self.time_step, h),
             )

@@ -41,7 +41,7 @@ SHAPES = {
     "particles_list": ({"file": "particles.json"}, sum(VOLUMES), 0.0),
     "gmsh": ({"mesh_file": "box.msh", "physical_to_material": {"box": 1}}, 0.6 * 0.5 * 0.7, 0.0),
 }
-"""Keys of a body of each kind, its volume [m³], and the area [m²] on which particles end anywhere."""
+"""Keys of a body of each kind, its volume [m³], and the area [m²] that may cut its particles."""
 
 
 @pytest.fixture(autouse=True)

@@ -1,6 +1,7 @@
-"""Particles, lists and meshes that cannot be used: a clear message, exit code 2, nothing written."""
+"""Particles, lists and meshes that cannot be used: a clear message, exit code 2, no files."""
 
 import json
+from pathlib import Path
 
 import meshes
 import numpy as np
@@ -18,8 +19,7 @@ COLUMNS = {"position": [[1, 1, 1], [2, 1, 1]], "volume": [1, 1], "material_id": 
 def refused(case, body, capsys):
     """Return what the program says about a case with a body that it refuses to run."""
     case["body"] = {"b": body}
-    with open("case.json", "w", encoding="utf-8") as file:
-        json.dump(case, file)
+    Path("case.json").write_text(json.dumps(case))
     assert cli.main(["case.json", "--output", "out"]) == cli.BAD_INPUT
     shown = capsys.readouterr().err
     assert "Traceback" not in shown
@@ -113,31 +113,51 @@ MESHES = {
         'body.b.physical_to_material.soi1: no physical group of the mesh, which has "soil"; '
         'did you mean "soil"?',
     ),
-    "quite another name": (mesh(), {"water": 1}, 'physical_to_material.water: no physical group'),
+    "quite another name": (mesh(), {"water": 1}, "physical_to_material.water: no physical group"),
     "group of surfaces": (
         meshes.mesh_of({"soil": [CUBE], "top": [CUBE]}, {"soil": (1, 3), "top": (2, 2)}),
         {"top": 1},
         'physical_to_material.top: a group of the mesh, but not of volumes; those are "soil"',
     ),
-    "only surfaces": (mesh({"soil": (1, 2)}), {"soil": 1}, "m.msh has no physical group of volumes"),
+    "only surfaces": (
+        mesh({"soil": (1, 2)}),
+        {"soil": 1},
+        "m.msh has no physical group of volumes",
+    ),
     "no groups": (mesh({"soil": (0, 9)}), {"soil": 1}, "m.msh has no physical group of volumes"),
     "empty group": (
         meshes.mesh_of({"soil": [CUBE]}, {"soil": (1, 3), "rock": (2, 3)}),
         {"rock": 1},
-        'body.b.mesh_file: ',
+        "body.b.mesh_file: ",
     ),
-    "unknown material": (mesh(), {"soil": 9}, "physical_to_material.soil: 9 is no id of a material"),
+    "unknown material": (
+        mesh(),
+        {"soil": 9},
+        "physical_to_material.soil: 9 is no id of a material",
+    ),
     "no material": (mesh(), {"soil": 0}, "physical_to_material: names no group with a material"),
     "no map": (mesh(), {}, "physical_to_material: names no group with a material above 0"),
-    "list": (mesh(), ["soil"], "physical_to_material: [\"soil\"] is not accepted; accepted: an object"),
+    "list": (
+        mesh(),
+        ["soil"],
+        'physical_to_material: ["soil"] is not accepted; accepted: an object',
+    ),
     "material word": (mesh(), {"soil": "1"}, 'physical_to_material.soil: "1" is not accepted'),
-    "flat": (mesh(lift=lambda x: x * [1, 1, 0]), {"soil": 1}, "8 hexahedron without volume or folded"),
+    "flat": (
+        mesh(lift=lambda x: x * [1, 1, 0]),
+        {"soil": 1},
+        "8 hexahedron without volume or folded",
+    ),
     "folded": (
         mesh(part=(CUBE[0], CUBE[1], CUBE[2][:, [0, 2, 1, 3, 4, 5, 6, 7]])),
         {"soil": 1},
         "8 hexahedron without volume or folded, one at (0.25, 0.25, 0.25) m",
     ),
-    "NaN": (mesh(lift=lambda x: x * np.nan), {"soil": 1}, "has nodes whose coordinates are not finite"),
+    "NaN": (
+        mesh(lift=lambda x: x * np.nan),
+        {"soil": 1},
+        "has nodes whose coordinates are not finite",
+    ),
     "wedges": (
         mesh(part=("wedge", np.random.default_rng(1).random((6, 3)), np.arange(6)[None])),
         {"soil": 1},

@@ -58,8 +58,7 @@ def components(solver, fields) -> list[str]:
 
 def values(solver, s, fields, at) -> np.ndarray:
     """Return all components of some fields of the particles `at` of a set, (len(at), columns)."""
-    parts = [np.asarray(field_of(solver, s, key, at), float) for key in fields]
-    return np.concatenate([part.reshape(len(at), -1) for part in parts], axis=1)
+    return np.column_stack([np.asarray(field_of(solver, s, key, at), float) for key in fields])
 
 
 def particles_within(solver, s, low, high) -> np.ndarray:

@@ -1,6 +1,7 @@
 """Bodies from Gmsh files: groups, formats, elements, distributions."""
 
 import meshes
+import meshio
 import numpy as np
 import pytest
 
@@ -34,7 +35,10 @@ def file(tmp_path):
 def test_groups_become_bodies_in_alphabetical_order(file):
     made = body(file, {"soil": 3, "rock": 7})
     assert made.labels == ('gmsh, "rock"', 'gmsh, "soil"')
-    assert made.materials == {7: ("physical_to_material", "rock"), 3: ("physical_to_material", "soil")}
+    assert made.materials == {
+        7: ("physical_to_material", "rock"),
+        3: ("physical_to_material", "soil"),
+    }
     rock, soil = made.clouds(CELL)
     assert (rock.material, soil.material) == (7, 3)
     assert (len(rock.position), len(soil.position)) == (12, 8)
@@ -74,8 +78,12 @@ def test_several_blocks_of_a_group_in_a_file_where_others_have_none(tmp_path):
     text = path.read_text()
     start = text.index("$Entities")
     entities = text[start : text.index("$EndEntities")].splitlines()
-    without = [line.replace(" 1 0 0", " 0 0") if line.startswith("3 ") else line for line in entities]
+    without = [
+        line.replace(" 1 0 0", " 0 0") if line.startswith("3 ") else line for line in entities
+    ]
     path.write_text(text.replace("\n".join(entities), "\n".join(without)))
+    with pytest.raises(ValueError, match="Incompatible cell data"):
+        meshio.gmsh.read(path)
     (soil,) = clouds(path, {"soil": 1})
     assert len(soil.position) == 20
 

@@ -31,11 +31,7 @@ def test_neutral_values_change_nothing(case, keys):
     ("keys", "where"),
     [
         ({"n_phases": 2}, "n_phases: 2"),
-        ({"save_state": True}, "save_state: true"),
-        ({"load_state": True}, "load_state: true"),
         ({"terrain_contact": {"active": True}}, "terrain_contact.active: true"),
-        ({"material": [{"type": "mohr-coulomb", "id": 1}]}, "material[0].type"),
-        ({"material": {"w": {"type": "newtonian", "id": 1}}}, "material.w.type"),
     ],
 )
 def test_anything_else_is_not_supported_yet(case, keys, where):

@@ -97,6 +97,19 @@ def test_agree_with_damping_loads_mixed_sizes_and_departures():
     assert 10 < twin.active.sum() < len(twin.active) - 10
 
 
+def test_agree_with_plastic_flow_and_rotation():
+    """Laws with variables, and stress that turns with the particles."""
+    case = scene()
+    plastic = {"type": "mohr-coulomb", "friction": 25.0, "cohesion": 2e3, "dilation": 5.0}
+    case["materials"][0] |= plastic | {"objective_rate": "hughes-winget"}
+    case["materials"][1] |= {"objective_rate": "jaumann"}
+    simulation, twin = both(case)
+    assert_same_steps(simulation, twin)
+    found, expected = simulation.field("plastic_strain"), twin.state[0][:, 0]
+    assert np.abs(found - expected).max() < 1e-10 * expected.max()
+    assert (expected > 0).sum() > 100
+
+
 @pytest.mark.parametrize(
     "keys",
     [
