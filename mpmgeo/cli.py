@@ -61,9 +61,11 @@ def main(argv=None) -> int:
 
 def run(case, arguments) -> int:
     """Simulate a case, write its files and return the exit code."""
+    from mpmgeo.numerics.jit import prepare
     from mpmgeo.run.progress import Compilation, Progress
     from mpmgeo.run.watch import Diverged
 
+    prepare()
     quiet = arguments.quiet
     output = Path(arguments.output)
     with Compilation(lambda: None if quiet else _say("note", COMPILING)) as compilation:

@@ -246,10 +246,14 @@ class Simulation:
     def assign(self, key, values):
         """Set "velocity" (n, 3) [m/s] or "stress" (n, 6) [Pa] of all particles, in row order.
 
-        Raises KeyError for another key.
+        Raises KeyError for another key, ValueError for another shape.
         """
-        name = {"velocity": "v", "stress": "stress"}[key]
+        name, columns = {"velocity": ("v", 3), "stress": ("stress", 6)}[key]
         values = np.asarray(values, float)
+        if values.shape != (self.solver.count, columns):
+            raise ValueError(
+                f"{key} has the shape {(self.solver.count, columns)}, not {values.shape}"
+            )
         for s in self.solver.sets:
             getattr(s, name)[:] = values[s.row]
 

@@ -45,6 +45,7 @@ class Declared(NamedTuple):
 
     @property
     def is_required(self) -> bool:
+        """Return whether the key has no default."""
         return self.field.default is MISSING
 
 

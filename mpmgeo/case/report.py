@@ -33,12 +33,15 @@ class Report:
         self.errors.setdefault(path, self.line(path, message))
 
     def warn(self, path, message):
+        """Add a warning, once."""
         self.warnings.setdefault((path, message), self.line(path, message))
 
     def note(self, path, message):
+        """Add a note, once."""
         self.notes.setdefault((path, message), self.line(path, message))
 
     def line(self, path, message):
+        """Return a message with its path before it."""
         return f"{self.where(path)}: {message}" if path else message
 
     def where(self, path):

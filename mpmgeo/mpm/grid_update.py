@@ -1,9 +1,9 @@
 """The step of the nodes: sum the tiles, divide by mass, damp, apply the boundaries, integrate.
 
 At the edge of a particle's support round-off leaves nodal masses so small that forces of round-off
-would give them absurd velocities. Below a cut-off, the mass of a lightest particle that reaches over
-the node by 1e-12 of a cell, a node keeps the velocity of its particles: a mean of theirs is always
-safe, while zero would strain them. The forces still reach the particles, so momentum stays.
+would give them absurd velocities. Below a cut-off, the mass of a lightest particle that reaches
+over the node by 1e-12 of a cell, a node keeps the velocity of its particles: a mean of theirs is
+always safe, while zero would strain them. The forces still reach the particles: momentum stays.
 """
 
 from numba import prange

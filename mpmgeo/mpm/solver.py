@@ -173,13 +173,19 @@ class Solver:
         return {"sets": copies, "order": order, "time": self.time, "steps": self.steps}
 
     def restore(self, kept):
-        """Go back to the particles that `keep` returned; to look at, not to run on from."""
+        """Go back to the particles that `keep` returned; to look at, not to run on from.
+
+        The nodes get the mass and velocity that these particles give them.
+        """
         for s, copy, order in zip(self.sets, kept["sets"], kept["order"], strict=True):
             for name, a in s.arrays().items():
                 np.copyto(a, copy[name])
             s.start, s.chunk = order
         self.time, self.steps = kept["time"], kept["steps"]
         self.peak_energy = None
+        self._sort()
+        self.scatter()
+        self.update_momentum(0.0)
 
     # The stages
 

@@ -16,7 +16,7 @@ import inspect
 from numba import types
 from numba.extending import overload
 
-from mpmgeo.numerics.jit import OPTIONS
+from mpmgeo.numerics.jit import OPTIONS, keep_apart
 
 
 def generic(stub):
@@ -59,6 +59,8 @@ def generic(stub):
             if found != names:
                 raise ValueError(f"{stub.__name__} takes ({arguments}), not ({', '.join(found)})")
             implementations[cls] = implementation
+            if _is_ours(stub) and not _is_ours(implementation):
+                keep_apart(implementation.__code__.co_filename)
             return implementation
 
         return add
@@ -66,3 +68,7 @@ def generic(stub):
     function.register = register
     overload(function, jit_options={**OPTIONS, "forceinline": True})(scope["template"])
     return function
+
+
+def _is_ours(function):
+    return function.__module__.split(".")[0] == "mpmgeo"

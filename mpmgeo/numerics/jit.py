@@ -2,6 +2,7 @@
 
 import hashlib
 import os
+import sys
 import tempfile
 import types
 from pathlib import Path
@@ -13,7 +14,7 @@ FAST = {"nsz", "arcp", "contract", "afn", "reassoc"}
 OPTIONS = {"fastmath": FAST, "error_model": "numpy"}
 
 
-NO_KERNELS = {"bodies", "case", "loads", "output", "run", "verify"}
+NO_KERNELS = {"bodies", "case", "loads", "output", "run"}
 
 
 def _cache_folder():
@@ -37,6 +38,31 @@ def _cache_folder():
 
 
 numba.config.CACHE_DIR = _cache_folder()
+_cached = []  # every function with a place in the cache
+
+
+def keep_apart(source):
+    """Move the cache of all kernels to a folder of its own for this version of the file `source`.
+
+    For code outside the package that kernels are compiled with, a user's law: numba would not
+    notice when it changes, and could not read its cache when it is gone.
+    """
+    if not numba.config.CACHE_DIR:
+        return
+    path = Path(source)
+    content = path.read_bytes() if path.is_file() else source.encode()
+    folder = Path(numba.config.CACHE_DIR) / hashlib.sha256(content).hexdigest()[:16]
+    folder.mkdir(exist_ok=True)
+    numba.config.CACHE_DIR = str(folder)
+    for function in _cached:
+        function.enable_caching()
+
+
+def _compile(function, **options):
+    dispatcher = numba.njit(cache=bool(numba.config.CACHE_DIR), **OPTIONS, **options)(function)
+    if numba.config.CACHE_DIR:
+        _cached.append(dispatcher)
+    return dispatcher
 
 
 def inlined(function):
@@ -46,7 +72,7 @@ def inlined(function):
 
 def compiled(function):
     """Compile a function for one thread."""
-    return numba.njit(cache=bool(numba.config.CACHE_DIR), **OPTIONS)(function)
+    return _compile(function)
 
 
 def blockwise(function):
@@ -54,12 +80,30 @@ def blockwise(function):
 
     Numba's cache tells functions apart by name and not by options, so the serial one gets its own.
     """
-    cache = bool(numba.config.CACHE_DIR)
     twin = types.FunctionType(
         function.__code__, function.__globals__, function.__name__ + "_serial"
     )
     twin.__qualname__ = twin.__name__
     twin.__module__ = function.__module__
-    threaded = numba.njit(parallel=True, cache=cache, **OPTIONS)(function)
-    threaded.serial = numba.njit(cache=cache, **OPTIONS)(twin)
+    threaded = _compile(function, parallel=True)
+    threaded.serial = _compile(twin)
     return threaded
+
+
+def prepare():
+    """Load numba's compiler now, and without scipy, as a program's process may.
+
+    Numba imports scipy where it is installed, for a BLAS that no kernel here uses: a third of a
+    second at the start of every run. Scripts that use the library keep numba as it is.
+    """
+    from numba.core.registry import cpu_target
+
+    hidden = "scipy" not in sys.modules
+    if hidden:
+        sys.modules["scipy"] = None
+    try:
+        cpu_target.typing_context.refresh()
+        cpu_target.target_context.refresh()
+    finally:
+        if hidden:
+            del sys.modules["scipy"]

@@ -15,8 +15,8 @@ def diagnose(simulation, error, last_stress):
     speed = float(np.linalg.norm(error.velocity))
     return (
         f"the run diverged in step {error.step} (time {error.time:.6g} s): particle {error.row} of "
-        f"material {error.material} at ({numbers}) m has a speed of {speed:.4g} m/s, its last stress "
-        f"was ({stress}) Pa; {_cause(simulation, dt)}; the files show the last sound state"
+        f"material {error.material} at ({numbers}) m has a speed of {speed:.4g} m/s, its last "
+        f"stress was ({stress}) Pa; {_cause(simulation, dt)}; the files show the last sound state"
     )
 
 

@@ -25,5 +25,16 @@ def run(simulation, until, watchers):
             raise
         finally:
             simulation.interrupted = interrupt.asked
-            for watcher in begun:
-                watcher.end(simulation, error)
+            _end(begun, simulation, error)
+
+
+def _end(watchers, simulation, error):
+    """End all watchers, even if one of them fails; raise the first such failure at the end."""
+    failures = []
+    for watcher in watchers:
+        try:
+            watcher.end(simulation, error)
+        except Exception as failure:
+            failures.append(failure)
+    if failures:
+        raise failures[0]

@@ -1,8 +1,7 @@
 """The solver's twin: a step of the material point method written down as its equations stand.
 
-One particle after the other, on a dense grid, in one thread. Tests compare the solver with it and
-benchmarks measure against it. Capitals are nodal: mass M, momentum P, force F, velocity U and
-acceleration A.
+One particle after the other, on a dense grid, in one thread, for tests and benchmarks to compare
+with. Capitals are nodal: mass M, momentum P, force F, velocity U, acceleration A.
 
     M = Σ m S,   P = Σ m v S,   F = Σ (f S − V σ ∇S),   A = F/M,   U = P/M + h A
     v ← v + h Σ A S,   x ← x + Δt Σ U S,   L = Σ U ⊗ ∇S,   Δε = ½(L + Lᵀ) Δt
@@ -112,8 +111,7 @@ def scatter(shape, box, rows, half, x, v, m, V, stress, force, M, P, F):
 def update_nodes(h, local, cutoff, free, M, P, F, U, A):
     """Make velocities of the nodal momentum and, unless the force is None, integrate it over h.
 
-    `free`: 0 for components that a plane holds; `local`: share of local damping, None without.
-    Forces do not move a node whose mass is not above `cutoff`.
+    `free`: 0 where a plane holds; `local`: share of local damping; `cutoff`: see `grid_update`.
     """
     for n in np.ndindex(M.shape):
         u = a = ZERO

@@ -108,7 +108,9 @@ def test_energy_is_that_of_the_state_of_the_same_label(tmp_path):
 
 def test_energy_before_kinetic_damping_stops_the_particles(tmp_path):
     """Every step is an output; rows show the energies that made the damping act."""
-    run(tmp_path, {"print": 0}, damping={"type": "kinetic"}, time=0.2)
+    case = two_blocks(results={"print": 0}, damping={"type": "kinetic"}, time=0.2)
+    case["body"][1]["initial_velocity"] = [0, 0, -10.0]
+    simulate(case, output=tmp_path).run()
     energy = energies(tmp_path)[:, 1]
     assert len(energy) == 201 and (energy > 0).all()
     assert (np.diff(energy) < 0).any()
