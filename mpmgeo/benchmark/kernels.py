@@ -281,7 +281,7 @@ class Gather:
 class ParticleStrainIncrement(Gather):
     """Strain increment where the velocity is (a x, b y, c z)."""
 
-    name, kernel, components = "particleStrainIncrement", strains, 6
+    name, kernel, components = "particleStrainIncrement", staticmethod(strains), 6
 
     def set_up(self, configuration):
         """Choose the velocity."""
@@ -294,7 +294,7 @@ class ParticleStrainIncrement(Gather):
 class ParticleVorticityIncrement(Gather):
     """Spin increment where the velocity is ω × x."""
 
-    name, kernel, components = "particleVorticityIncrement", spins, 3
+    name, kernel, components = "particleVorticityIncrement", staticmethod(spins), 3
 
     def set_up(self, configuration):
         """Choose the velocity."""

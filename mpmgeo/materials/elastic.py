@@ -34,6 +34,7 @@ class Elastic(Law):
 
     @property
     def symbols(self) -> Symbols:
+        """Return what the kernels need."""
         """Return what the kernels use."""
         G = self.young / (2 * (1 + self.poisson))
         K = self.young / (3 * (1 - 2 * self.poisson))

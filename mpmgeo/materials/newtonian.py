@@ -36,6 +36,7 @@ class Newtonian(Law):
 
     @property
     def symbols(self) -> Symbols:
+        """Return what the kernels need."""
         return Symbols(κ=self.bulk, μ=self.viscosity)
 
     def sound_speed(self) -> float:

@@ -71,4 +71,4 @@ def generic(stub):
 
 
 def _is_ours(function):
-    return function.__module__.split(".")[0] == "mpmgeo"
+    return (function.__module__ or "").split(".")[0] == "mpmgeo"
