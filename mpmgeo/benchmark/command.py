@@ -1,4 +1,4 @@
-"""The command `mpmgeo benchmark`: time the kernels and report as MPM-Geomechanics does, and more."""
+"""The command `mpmgeo benchmark`: time the kernels, report as MPM-Geomechanics does and more."""
 
 import argparse
 import sys
@@ -11,6 +11,8 @@ WRONG = 1e-9
 
 MARKS = {"first cell": "PERF", "spread out": "SPREAD"}
 """What the line of a kernel begins with, by the placement of the particles."""
+
+COMPILING = "compiling the kernels (once; later runs start at once)"
 
 HEADER = "particles,threads,placement,kernel,median_ms,fastest_ms,slowest_ms,ns_per_particle"
 
@@ -35,14 +37,15 @@ class Timing(NamedTuple):
         """Return the numbers as a row of the csv file."""
         middle = self.milliseconds[0]
         numbers = [f"{t:.6g}" for t in (*self.milliseconds, 1e6 * middle / self.particles)]
-        return ",".join([str(self.particles), str(self.threads), self.placement, self.kernel, *numbers])
+        what = (self.particles, self.threads, self.placement, self.kernel)
+        return ",".join([*map(str, what), *numbers])
 
 
 def parse(argv):
     """Return the options of the command; raises SystemExit for wrong ones."""
     parser = argparse.ArgumentParser(
         prog="mpmgeo benchmark",
-        description="Time the nine kernels that MPM-Geomechanics times, with the same configuration.",
+        description="Time the nine kernels that MPM-Geomechanics times, with its configuration.",
         epilog="Exit codes: 0 done, 2 bad input, 3 a kernel's result is wrong, 130 interrupted.",
     )
     parser.add_argument(
@@ -63,6 +66,7 @@ def parse(argv):
 def serve(arguments) -> int:
     """Run the benchmark and return the exit code; OSError for files that cannot be used."""
     from mpmgeo.benchmark.configuration import read_configurations
+    from mpmgeo.run.progress import Compilation
 
     try:
         configurations, remarks = read_configurations(arguments.config)
@@ -73,10 +77,11 @@ def serve(arguments) -> int:
         if arguments.log or "absent" not in remark:
             _say("note", remark)
     timings = []
-    for configuration in configurations:
-        found = [*_run(configuration, arguments.repeats)]
-        _print_table(found)
-        timings += found
+    with Compilation(lambda: _say("note", COMPILING)):
+        for configuration in configurations:
+            found = [*_run(configuration, arguments.repeats)]
+            _print_table(found)
+            timings += found
     if arguments.csv:
         _write(arguments.csv, timings)
     wrong = [t for t in timings if not t.error < WRONG]
@@ -126,7 +131,8 @@ def _time(kernel, repeats):
 
 
 def _print_table(timings):
-    print(f"\n{'kernel':28}{'placement':13}{'median':>10}{'fastest':>10}{'slowest':>10}  ns/particle")
+    times = "".join(f"{word:>10}" for word in ("median", "fastest", "slowest"))
+    print(f"\n{'kernel':28}{'placement':13}{times}  ns/particle")
     for timing in timings:
         numbers = "".join(f"{t:10.3f}" for t in timing.milliseconds)
         each = 1e6 * timing.milliseconds[0] / timing.particles

@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import dataclass, replace
+from itertools import product
 from pathlib import Path
 
 from mpmgeo.parameters import Counts, Vector
@@ -97,8 +98,8 @@ def read_configurations(path: Path | str | None) -> tuple[list[Configuration], l
     if "parameters" not in tree:
         return [Configuration(**values)], remarks
     base = Configuration(**{"cells": MATRIX_CELLS, **values})
-    counts, threads = _series(tree["parameters"], "particles"), _series(tree["parameters"], "threads")
-    return [replace(base, particles=n, threads=t) for n in counts for t in threads], remarks
+    pairs = product(*(_series(tree["parameters"], name) for name in ("particles", "threads")))
+    return [replace(base, particles=n, threads=t) for n, t in pairs], remarks
 
 
 def _tree(path):
@@ -130,11 +131,11 @@ def _value(name, value, path):
     default = getattr(Configuration, name)
     if isinstance(default, tuple):
         if not isinstance(value, list):
-            raise ValueError(f"{path}: {json.dumps(value)} is not accepted; accepted: three numbers")
+            raise _refusal(path, value, "three numbers")
         return tuple(_number(name, entry, path) for entry in value)
     if isinstance(default, bool):
         if not isinstance(value, bool):
-            raise ValueError(f"{path}: {json.dumps(value)} is not accepted; accepted: true or false")
+            raise _refusal(path, value, "true or false")
         return value
     return _number(name, value, path)
 
@@ -146,12 +147,16 @@ def _number(name, value, path):
     is_number = type(value) in (int, float) and abs(value) <= MOST
     is_whole = is_number and value == int(value)
     if not is_number or (name in WHOLE and not is_whole) or (name in POSITIVE and value <= 0):
-        raise ValueError(f"{path}: {json.dumps(value)} is not accepted; accepted: {kind}")
+        raise _refusal(path, value, kind)
     if name == "poisson" and not -1 < value < 0.5:
-        raise ValueError(f"{path}: {value} is not accepted; accepted: a number above -1, below 0.5")
+        raise _refusal(path, value, "a number above -1, below 0.5")
     if name == "seed" and value < 0:
-        raise ValueError(f"{path}: {value} is not accepted; accepted: a whole number at least 0")
+        raise _refusal(path, value, "a whole number at least 0")
     return int(value) if name in WHOLE else float(value)
+
+
+def _refusal(path, value, accepted):
+    return ValueError(f"{path}: {json.dumps(value)} is not accepted; accepted: {accepted}")
 
 
 def _series(parameters, name):

@@ -54,6 +54,7 @@ class Filled(Body):
 
     @property
     def materials(self) -> dict[int, tuple]:
+        """Return the materials in use, each with the keys that name it."""
         return {self.material_id: ("material_id",)}
 
     def complaints(self, cell: np.ndarray) -> Iterator[tuple[tuple, str]]:

@@ -46,10 +46,12 @@ class Gmsh(Body):
 
     @property
     def labels(self) -> tuple[str, ...]:
+        """Return what messages call the bodies, one name each."""
         return tuple(f'gmsh, "{name}"' for name in self._groups)
 
     @property
     def materials(self) -> dict[int, tuple]:
+        """Return the materials in use, each with the keys that name it."""
         places = {self.physical_to_material[name]: name for name in reversed(self._groups)}
         return {id: ("physical_to_material", name) for id, name in places.items()}
 

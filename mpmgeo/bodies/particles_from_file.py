@@ -34,6 +34,7 @@ class ParticlesFromFile(Body):
 
     @property
     def materials(self) -> dict[int, tuple]:
+        """Return the materials in use, each with the keys that name it."""
         if self.material_id is not None:
             return {self.material_id: ("material_id",)}
         return dict.fromkeys(np.unique(self.table.material).tolist(), ("file",))

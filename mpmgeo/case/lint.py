@@ -26,6 +26,8 @@ def lint(simulation) -> list[str]:
         *_outside(position, case.mesh),
         *_empty_bodies(case, simulation.field("body")),
         *_idle_loads(case, position),
+        *_prescribed(case, position, simulation.field("body")),
+        *_probes(case),
         *_record(case, simulation.time_step),
     ]
 
@@ -67,6 +69,25 @@ def _idle_loads(case, position) -> Iterator[str]:
                 f"nodal_point_load, entry {number}: no particle near {list(load.position)}; "
                 "the force has no effect until one comes"
             )
+
+
+def _prescribed(case, position, body) -> Iterator[str]:
+    for entry in case.prescribed_velocity:
+        where = f"prescribed_velocity, {entry.name}"
+        if entry.plane is None and not entry.chooses(position, body).any():
+            yield f"{where}: no particle is meant; nothing happens"
+        end = entry.motion.time[-1]
+        if entry.file is not None and end < case.time:
+            yield f"{where}: the table ends at {end:g} s, the run at {case.time:g} s"
+
+
+def _probes(case) -> Iterator[str]:
+    for probe in case.results.probes:
+        points = np.array(getattr(probe, "points", ()), float).reshape(-1, 3)
+        outside = ((points < case.mesh.origin) | (points > case.mesh.upper)).any(axis=1)
+        for point in points[outside]:
+            where = f"results.probes, {probe.name}"
+            yield f"{where}: the point {point.tolist()} is outside the mesh"
 
 
 def _record(case, time_step) -> Iterator[str]:

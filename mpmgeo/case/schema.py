@@ -12,7 +12,6 @@ INTEGERS = {"minimum": -(2**31), "maximum": 2**31 - 1}
 """Whole numbers that every later step can hold."""
 
 
-
 def _containers(cls, place):
     for key, kind, _ in declared(cls):
         if kind.is_container:

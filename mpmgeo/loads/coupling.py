@@ -1,6 +1,8 @@
 """One-way coupling: pore pressures that a file gives at points act on the particles near them.
 
-    σ = σ′ − p I    in the internal force; the material law knows the effective stress σ′ alone
+    σ = σ′ − p I
+
+in the internal force; the material law knows the effective stress σ′ alone.
 """
 
 from collections.abc import Iterator
@@ -48,12 +50,12 @@ class HydroMechanicalCoupling:
         default="one_way",
     )
     pore_pressure_field: Path | None = parameter(
-        "JSON file, a list of objects with `position` [m] and `pressure` [Pa], compression positive",
+        "JSON list of objects with `position` [m] and `pressure` [Pa], compression positive",
         file=True,
         default=None,
     )
     interpolation: str = parameter(
-        "Value of a particle: that of the nearest point, or a linear fit to all points in the radius",
+        "Value of a particle: that of the nearest point, or a linear fit to all in the radius",
         choices=tuple(RADII),
         default="nearest",
     )

@@ -34,7 +34,7 @@ def read_table(
             f"{path}: the first line holds numbers but was dropped as heading; "
             'say "header": false to keep it'
         )
-    if header or header is None and not _is_row(lines[0], may_be_free):
+    if header or (header is None and not _is_row(lines[0], may_be_free)):
         lines[0] = ""
     numbers = [number for number, line in enumerate(lines) if line.strip()]
     if not numbers:

@@ -10,7 +10,6 @@ from math import sqrt
 from typing import ClassVar, NamedTuple
 
 from mpmgeo.materials.law import Law, update_stress
-from mpmgeo.materials.rotation import objective_rate
 from mpmgeo.numerics.jit import inlined
 from mpmgeo.parameters import parameter
 
@@ -30,11 +29,9 @@ class Elastic(Law):
 
     young: float = parameter("Young's modulus", unit="Pa", above=0)
     poisson: float = parameter("Poisson's ratio", above=-1, below=0.5)
-    objective_rate: str = objective_rate("none")
 
     @property
     def symbols(self) -> Symbols:
-        """Return what the kernels need."""
         """Return what the kernels use."""
         G = self.young / (2 * (1 + self.poisson))
         K = self.young / (3 * (1 - 2 * self.poisson))

@@ -2,16 +2,18 @@
 
 from dataclasses import dataclass
 
+from mpmgeo.materials.rotation import objective_rate
 from mpmgeo.numerics.dispatch import generic
 from mpmgeo.parameters import parameter
 
 
 @dataclass(frozen=True)
 class Law:
-    """A material; laws add their parameters, `objective_rate`, `symbols` and `sound_speed()`."""
+    """A material; laws add their parameters, `symbols` and `sound_speed()`."""
 
     id: int = parameter("Number by which bodies refer to the material")
     density: float = parameter("Initial density", unit="kg/m³", above=0)
+    objective_rate: str = objective_rate("none")
 
     @property
     def symbols_as_mpm_geomechanics(self):

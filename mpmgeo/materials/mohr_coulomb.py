@@ -202,7 +202,7 @@ class MohrCoulomb(Elastic):
 
     @property
     def symbols(self) -> Constant | Softening | Undrained:
-        """Return what the kernels need for strengths of this kind."""
+        """Return what the kernels use: symbols of one of three types."""
         stiffness = (*super().symbols, self.young, self.poisson)
         φ, ψ, c, T = (self._peak(key) for key in SOFTENING)
         φ_, ψ_, c_, T_ = (self._residual(key) for key in SOFTENING)

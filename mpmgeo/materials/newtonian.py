@@ -13,7 +13,6 @@ from math import sqrt
 from typing import ClassVar, NamedTuple
 
 from mpmgeo.materials.law import Law, update_stress
-from mpmgeo.materials.rotation import objective_rate
 from mpmgeo.parameters import parameter
 
 
@@ -32,11 +31,10 @@ class Newtonian(Law):
 
     viscosity: float = parameter("Dynamic viscosity", unit="Pa s", minimum=0, default=0.0)
     bulk: float = parameter("Bulk modulus", unit="Pa", above=0)
-    objective_rate: str = objective_rate("none")
 
     @property
     def symbols(self) -> Symbols:
-        """Return what the kernels need."""
+        """Return what the kernels use."""
         return Symbols(κ=self.bulk, μ=self.viscosity)
 
     def sound_speed(self) -> float:

@@ -90,8 +90,9 @@ def integrated(
     if owner is not None:
         t = owner[n]
         if t >= 0:
-            vx, vy, vz = vx * (1.0 - given[t, 0]), vy * (1.0 - given[t, 1]), vz * (1.0 - given[t, 2])
-            ax, ay, az = ax * (1.0 - given[t, 0]), ay * (1.0 - given[t, 1]), az * (1.0 - given[t, 2])
+            gx, gy, gz = 1.0 - given[t, 0], 1.0 - given[t, 1], 1.0 - given[t, 2]
+            vx, vy, vz = vx * gx, vy * gy, vz * gz
+            ax, ay, az = ax * gx, ay * gy, az * gz
     if local is not None:
         x, y, z = ax, ay, az
         ax, ay, az = _damped(local, ax, ay, az, vx, vy, vz)

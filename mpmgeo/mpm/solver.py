@@ -250,9 +250,9 @@ class Solver:
         for s in self.sets:
             self.gone += self._run(
                 transfer.gather,
-                *(s.law if stress else None, s.rotation, s.chunk, s.start, g.corner, g.above, g.nodes),
-                *(g.scratch, s.half, s.x, None if h is None else s.v, s.V, s.stress, s.state),
-                *(s.strain, self.time_step, 0.0 if h is None else h),
+                *(s.law if stress else None, s.rotation, s.chunk, s.start, g.corner, g.above),
+                *(g.nodes, g.scratch, s.half, s.x, None if h is None else s.v, s.V, s.stress),
+                *(s.state, s.strain, self.time_step, 0.0 if h is None else h),
             )
         self.clock.lap("gather")
 
@@ -273,7 +273,8 @@ class Solver:
         for s in self.sets:
             self._run(
                 transfer.strain_and_force,
-                *(s.law, s.rotation, s.chunk, s.start, g.corner, g.above, g.nodes, g.scratch, s.half),
-                *(s.x, s.V, s.stress, s.pressure, s.state, s.strain, self.time_step, g.tiles),
+                *(s.law, s.rotation, s.chunk, s.start, g.corner, g.above, g.nodes, g.scratch),
+                *(s.half, s.x, s.V, s.stress, s.pressure, s.state, s.strain),
+                *(self.time_step, g.tiles),
             )
         self.clock.lap("strain and force")

@@ -10,6 +10,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+ARRAYS = ("row", "x", "v", "m", "V", "stress", "half", "force", "state", "pressure", "strain")
+"""Fields of a set that are arrays, if they are there, with a row for each particle."""
+
 
 class Population(NamedTuple):
     """What is fixed about all particles of a case, in row order."""
@@ -49,8 +52,7 @@ class ParticleSet:
 
     def arrays(self):
         """Return the arrays that are permuted together, by name."""
-        names = ("row", "x", "v", "m", "V", "stress", "half", "force", "state", "pressure", "strain")
-        return {name: a for name in names if isinstance(a := getattr(self, name), np.ndarray)}
+        return {name: a for name in ARRAYS if isinstance(a := getattr(self, name), np.ndarray)}
 
     @property
     def active(self) -> int:

@@ -1,4 +1,4 @@
-"""Particle by particle, a slope with pore pressures agrees with the C++ program MPM-Geomechanics."""
+"""Particle by particle, a slope with pore pressures agrees with the program MPM-Geomechanics."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""A run that is killed or interrupted at any moment goes on, and ends as one that was left alone."""
+"""A run that is killed or interrupted at any moment goes on, and ends as if it had not been."""
 
 import json
 import os

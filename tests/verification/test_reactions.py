@@ -1,4 +1,4 @@
-"""Forces of the boundary planes: they are what the momentum of the particles lacks, to round-off."""
+"""Forces of the boundary planes: what the momentum of the particles lacks, to round-off."""
 
 import numpy as np
 import pytest

@@ -3,8 +3,6 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-import numpy as np
-
 from mpmgeo.naming import PLANES
 from mpmgeo.output.probes.probe import VECTOR, Probe
 from mpmgeo.parameters import parameter

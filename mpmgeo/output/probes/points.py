@@ -58,7 +58,8 @@ class Interpolated:
         solver, near, found = self.solver, [], []
         for s in solver.sets:
             at = particles_within(solver, s, point - self._cell, point + self._cell)
-            weight = np.maximum(1 - np.abs(s.x[at] - point) / self._cell, 0.0).prod(axis=1) * s.V[at]
+            distance = np.abs(s.x[at] - point) / self._cell
+            weight = s.V[at] * np.maximum(1 - distance, 0.0).prod(axis=1)
             at, weight = at[weight > 0], weight[weight > 0]
             near.append(np.column_stack([s.x[at], weight]))
             found.append(values(solver, s, self.fields, at))

@@ -9,14 +9,16 @@ RANDOM = np.random.default_rng(8)
 def around(x, count=20):
     """Return neighbours (k, 3) of places x, which place they belong to, and weights."""
     group = np.repeat(np.arange(len(x)), count)
-    return x[group] + RANDOM.uniform(-1, 1, (len(group), 3)), group, RANDOM.uniform(0.1, 1, len(group))
+    y = x[group] + RANDOM.uniform(-1, 1, (len(group), 3))
+    return y, group, RANDOM.uniform(0.1, 1, len(group))
 
 
 def test_linear_fields_are_reproduced():
     x = RANDOM.uniform(-5, 5, (30, 3))
     y, group, w = around(x)
     field = lambda at: np.column_stack([at @ [1, -2, 3] + 4, at @ [0, 5, 0] - 1])  # noqa: E731
-    np.testing.assert_allclose(linear_fit(x, group, y, w, field(y)), field(x), rtol=1e-11, atol=1e-11)
+    fit = linear_fit(x, group, y, w, field(y))
+    np.testing.assert_allclose(fit, field(x), rtol=1e-11, atol=1e-11)
 
 
 def test_plane_clouds_are_continued_across_their_plane():

@@ -8,8 +8,10 @@ from mpmgeo.numerics.neighbours import Neighbours
 
 def found(points, radius, x):
     """Return all pairs (place, point) in the order in which they come."""
-    pieces = list(Neighbours(points, radius).pairs(x))
-    return [(int(p), int(q)) for place, point, _ in pieces for p, q in zip(place, point, strict=True)]
+    pairs = []
+    for place, point, _ in Neighbours(points, radius).pairs(x):
+        pairs += zip(place.tolist(), point.tolist(), strict=True)
+    return pairs
 
 
 def expected(points, radius, x):
@@ -37,7 +39,7 @@ def test_pieces_are_put_together(monkeypatch):
 def test_distance_must_be_less_than_the_radius():
     points = np.zeros((1, 3))
     x = np.array([[0.5, 0, 0], [0.4999, 0, 0]])
-    (place, _, distance), = Neighbours(points, 0.5).pairs(x)
+    ((place, _, distance),) = Neighbours(points, 0.5).pairs(x)
     assert place.tolist() == [1]
     assert distance.tolist() == [0.4999]
 

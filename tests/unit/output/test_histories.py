@@ -1,4 +1,4 @@
-"""Files of histories: complete at outputs and at the end, with the rows that are due and no others."""
+"""Files of histories: complete at outputs and at the end, with all rows that are due."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What probes take down: the fields of the particles that they mean, at the steps that they name."""
+"""What probes take down: the fields of the particles and points that they mean."""
 
 import numpy as np
 import pytest
