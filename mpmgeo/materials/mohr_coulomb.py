@@ -219,13 +219,12 @@ class MohrCoulomb(Elastic):
     @property
     def symbols_as_mpm_geomechanics(self) -> mohr_coulomb_legacy.Symbols:
         """Return the symbols of the return that leaves edges and corners alone."""
-        peak = [self._peak(key) for key in SOFTENING]
-        residual = [self._residual(key) for key in SOFTENING]
+        φ, ψ, c, T = (self._peak(key) for key in SOFTENING)
+        φ_, _, c_, T_ = (self._residual(key) for key in SOFTENING)
         if not self.tensile:
-            φ, c = radians(self.friction), self.cohesion
-            peak[-1] = c / tan(φ) if φ > 0 else 0.0
-            residual[-1] = 0.0 if self._softens("tensile") else peak[-1]
-        strengths = (self.eta, *peak, *residual, self.su_vertical_stress)
+            T = self.cohesion / tan(φ) if φ > 0 else 0.0
+            T_ = 0.0 if self._softens("tensile") else T
+        strengths = (self.eta, φ, ψ, c, T, φ_, c_, T_, self.su_vertical_stress)
         return mohr_coulomb_legacy.Symbols(*super().symbols, *strengths)
 
 

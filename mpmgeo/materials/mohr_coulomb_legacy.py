@@ -31,7 +31,6 @@ class Symbols(NamedTuple):
     c: float
     T: float
     φ_residual: float
-    ψ_residual: float
     c_residual: float
     T_residual: float
     su: float
