@@ -6,11 +6,15 @@ import os
 import signal
 import sys
 from contextlib import contextmanager
+from importlib import import_module
 from pathlib import Path
 
 DONE, BAD_INPUT, DIVERGED, INTERRUPTED = 0, 2, 3, 130
 
-RESERVED = ("check", "init", "picture", "plot", "report", "benchmark", "sweep", "resume")
+COMMANDS = {"benchmark": "mpmgeo.benchmark.command"}
+"""Subcommands and the modules that `parse` and `serve` them."""
+
+RESERVED = ("check", "init", "picture", "plot", "report", "sweep", "resume")
 """Words kept free for subcommands; a case file of that name needs a path, like ./check."""
 
 COMPILING = "compiling the kernels for this kind of case (once; later runs start at once)"
@@ -27,13 +31,18 @@ def main(argv=None) -> int:
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="backslashreplace")
+    argv = sys.argv[1:] if argv is None else list(argv)
+    parse, serve = _parse, _serve
+    if argv and argv[0] in COMMANDS:
+        module = import_module(COMMANDS[argv.pop(0)])
+        parse, serve = module.parse, module.serve
     try:
-        arguments = _parse(argv)
+        arguments = parse(argv)
     except SystemExit as stop:
         return stop.code or DONE
     with _termination_as_interrupt():
         try:
-            return _serve(arguments)
+            return serve(arguments)
         except KeyboardInterrupt:
             _say("error", "interrupted")
             return INTERRUPTED
@@ -61,7 +70,7 @@ def run(case, arguments) -> int:
     output = Path(arguments.output)
     with Compilation(lambda: None if quiet else _say("note", COMPILING)) as compilation:
         simulation = _build(case, arguments, output)
-        _save_resolved(case, output)
+        _save_resolved(simulation.case, output)
         shown = len(simulation.messages)
         try:
             simulation.run(watchers=[] if quiet else [Progress(compilation)])
@@ -73,6 +82,8 @@ def run(case, arguments) -> int:
                 _say_all("warning", simulation.messages[shown:])
     if simulation.interrupted:
         _say("note", f"interrupted after step {simulation.steps}, results in {output.resolve()}")
+        if simulation.snapshot is not None and not quiet:
+            _say("note", f"mpmgeo --resume {simulation.snapshot} goes on from there")
         return INTERRUPTED
     if not quiet:
         _say("note", f"results are in {output.resolve()}")
@@ -81,8 +92,8 @@ def run(case, arguments) -> int:
 
 def check(case, arguments) -> int:
     """Print a case with its defaults filled in, after everything that precedes a run."""
-    _build(case, arguments, output=None)
-    print(_resolved_text(case))
+    simulation = _build(case, arguments, output=None)
+    print(_resolved_text(simulation.case))
     sys.stdout.flush()
     return DONE
 
@@ -91,30 +102,43 @@ def _serve(arguments):
     from mpmgeo.case.load import CaseError, load_case
 
     try:
-        case = load_case(arguments.case, strict=arguments.strict)
-        _say_all("note", () if arguments.quiet else case.notes)
-        _say_all("warning", case.warnings)
+        case = None
+        if arguments.case is not None:
+            case = load_case(arguments.case, strict=arguments.strict)
+            _say_all("note", () if arguments.quiet else case.notes)
+            _say_all("warning", case.warnings)
         return (check if arguments.check else run)(case, arguments)
     except CaseError as error:
         _say_all("note", () if arguments.quiet else error.notes)
         _say_all("warning", error.warnings)
         _say_all("error", error.problems)
         count = len(error.problems)
-        _say("error", f"{arguments.case}: {count} error{'s'[: count > 1]}; nothing was run")
+        name = arguments.case or arguments.resume
+        _say("error", f"{name}: {count} error{'s'[: count > 1]}; nothing was run")
         return BAD_INPUT
 
 
 def _build(case, arguments, output):
-    """Return the simulation of a case, or raise CaseError with what keeps it from running."""
+    """Return the simulation of a case, or raise CaseError with what keeps it from running.
+
+    `case`: None for that of the snapshot to resume.
+    """
     from mpmgeo.case.lint import lint
     from mpmgeo.case.report import CaseError
     from mpmgeo.simulation import Simulation
 
+    options = {"output": output, "threads": arguments.threads}
     try:
-        simulation = Simulation(case, output=output, threads=arguments.threads)
+        if arguments.resume is None:
+            simulation = Simulation(case, **options)
+        else:
+            simulation = Simulation.resume(arguments.resume, case, **options)
+    except CaseError:
+        raise
     except ValueError as error:
         raise CaseError([str(error)]) from error
-    warnings = lint(simulation)
+    case = simulation.case
+    warnings = [] if simulation.goes_on else lint(simulation)
     if warnings and arguments.strict:
         raise CaseError(warnings)
     _say_all("warning", warnings)
@@ -171,8 +195,9 @@ def _parse(argv):
     )
     parser.add_argument("words", metavar="CASE", nargs="*", help="the case file")
     parser.add_argument("--input", metavar="CASE", help="the case file, too")
+    parser.add_argument("--output", metavar="DIR", help="folder of the results [working directory]")
     parser.add_argument(
-        "--output", metavar="DIR", default=".", help="folder of the results [working directory]"
+        "--resume", metavar="FILE", help="go on from a snapshot; the case file is not needed"
     )
     parser.add_argument(
         "--threads", metavar="N", type=_thread_count, help="number of threads, before n_threads"
@@ -185,7 +210,16 @@ def _parse(argv):
     parser.add_argument("--version", action=_Version, nargs=0, help="print the version")
     arguments = parser.parse_args(argv)
     arguments.case = _case_of(parser, arguments)
+    arguments.output = arguments.output or _folder_of_run(arguments.resume)
     return arguments
+
+
+def _folder_of_run(snapshot):
+    """Return the folder whose files a resumed run goes on with, or the working directory."""
+    from mpmgeo.run.snapshots import FOLDER
+
+    folder = Path(snapshot or ".").parent
+    return folder.parent if snapshot and folder.absolute().name == FOLDER else Path()
 
 
 def _case_of(parser, arguments):
@@ -193,9 +227,9 @@ def _case_of(parser, arguments):
     if arguments.words and arguments.words[0] in RESERVED and not Path(words[0]).exists():
         word = arguments.words[0]
         parser.error(f"the word {word} is reserved for a later command; a case file has a path")
-    if len(words) != 1:
+    if len(words) > 1 or not (words or arguments.resume):
         parser.error("name one case file" if words else "name a case file, like case.json")
-    return words[0]
+    return words[0] if words else None
 
 
 def _thread_count(text):

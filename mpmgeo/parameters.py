@@ -3,6 +3,7 @@
 from dataclasses import MISSING, field
 
 Vector = tuple[float, float, float]
+Components = tuple[float | None, float | None, float | None]
 Counts = tuple[int, int, int]
 
 
@@ -17,13 +18,14 @@ def parameter(
     maximum=None,
     choices=None,
     file=False,
+    key=None,
 ):
     """Return the dataclass field of one JSON key.
 
     `doc` is one sentence; `unit` is SI ("" for none); `above`/`below` are open bounds, `minimum`/
     `maximum` closed ones, and bound every component of a vector; `choices` lists the accepted
-    words; `file` marks the name of a file, resolved against the case's folder. Without a
-    `default` the key is required.
+    words; `file` marks the name of a file, resolved against the case's folder; `key` is the
+    JSON key where it is not the name of the field. Without a `default` the key is required.
     """
     bounds = {"above": above, "minimum": minimum, "below": below, "maximum": maximum}
     metadata = {
@@ -32,5 +34,6 @@ def parameter(
         "bounds": {name: value for name, value in bounds.items() if value is not None},
         "choices": choices,
         "file": file,
+        "key": key,
     }
     return field(default=default, metadata=metadata, kw_only=True)

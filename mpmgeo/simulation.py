@@ -1,5 +1,7 @@
 """A case that runs: what scripts and the command line work with."""
 
+from dataclasses import replace
+from functools import cached_property
 from pathlib import Path
 from typing import NamedTuple
 
@@ -8,9 +10,13 @@ import numpy as np
 
 from mpmgeo.case.build import build, critical_time_step
 from mpmgeo.mpm.solver import Unsound
-from mpmgeo.output.fields import particle_field
+from mpmgeo.naming import PLANES
+from mpmgeo.output.final_stress import FinalStress
+from mpmgeo.output.histories import Histories, histories_of
+from mpmgeo.output.particle_fields import particle_field
 from mpmgeo.run.diagnosis import diagnose
 from mpmgeo.run.loop import run
+from mpmgeo.run.snapshots import Snapshots
 from mpmgeo.run.watch import Diverged, Guard
 
 
@@ -40,9 +46,49 @@ class Simulation:
         self.threads = self._set_threads(threads or case.n_threads)
         self.critical_time_step = critical_time_step(case, self.field("velocity"))
         self.interrupted = False
+        self.goes_on = False  # whether files of its earlier part may be in the output folder
+        self.snapshot = None  # path of the last one written
         self._kept = None
-        self._results = None
         self._told = set()
+        self._histories = histories_of(self, self.output or Path())
+
+    @classmethod
+    def resume(cls, path, case=None, output=None, threads=None):
+        """Return a simulation in the state of the snapshot at `path`, from which it goes on.
+
+        `case`: the snapshot's case, needed only if the files that it names have moved. Raises
+        ValueError if the snapshot cannot be used or is not of the case.
+        """
+        from mpmgeo.case.resume import case_of
+        from mpmgeo.mpm.persistence import take_over
+        from mpmgeo.state.snapshot import read_snapshot
+
+        snapshot = read_snapshot(path)
+        case = case_of(path, snapshot.facts, case)
+        simulation = cls(replace(case, load_state=False), output, threads)
+        simulation.case = case
+        take_over(simulation.solver, snapshot)
+        simulation._told = set(snapshot.facts["told"])
+        simulation.goes_on = True
+        return simulation
+
+    def save(self, path):
+        """Write a snapshot of the complete state."""
+        from mpmgeo.mpm.persistence import state_of
+        from mpmgeo.output.whole_file import whole_file
+        from mpmgeo.state.snapshot import Snapshot, write_snapshot
+
+        arrays, facts = state_of(self.solver)
+        facts |= {"told": sorted(self._told), **self._case_facts}
+        with whole_file(path) as file:
+            write_snapshot(file, Snapshot(arrays, facts))
+        self.snapshot = path
+
+    @cached_property
+    def _case_facts(self):
+        from mpmgeo.case.resume import case_facts
+
+        return case_facts(self.case)
 
     def _set_threads(self, wanted):
         most = numba.config.NUMBA_NUM_THREADS
@@ -67,17 +113,23 @@ class Simulation:
         try:
             run(self, self.case.time if until is None else until, watchers)
         finally:
+            self.goes_on = True
             self._report_departures()
         return self
 
     def _files(self, every):
         if self.output is None:
             return []
-        if self._results is None:
-            from mpmgeo.output.results import ResultFiles
+        from mpmgeo.output.results import ResultFiles
 
-            self._results = ResultFiles(self.output, self.case, every)
-        return [self._results]
+        files = [ResultFiles(self.output, self.case, every)]
+        if self._histories:
+            files.append(Histories(self._histories, every))
+        if self.case.save_state:
+            files.append(FinalStress(self.output))
+        if self.case.snapshot is not None:
+            files.append(Snapshots(self.output, self.case.snapshot, self._histories))
+        return files
 
     def step(self, steps=1):
         """Advance by some steps; returns the simulation."""
@@ -204,6 +256,17 @@ class Simulation:
             )
         for s in self.solver.sets:
             getattr(s, name)[:] = values[s.row]
+
+    def reactions(self):
+        """Return the forces (3,) [N] on the material by plane, X0 … Zn, and prescribed velocity.
+
+        They are of the last step that a plane probe or prescribed velocity of the case measured;
+        empty before.
+        """
+        if self.solver.reactions is None:
+            return {}
+        names = [*PLANES, *(entry.name for entry in self.case.prescribed_velocity)]
+        return dict(zip(names, self.solver.reactions, strict=True))
 
     def nodes(self):
         """Return the nodes that carried mass in the last step."""

@@ -6,14 +6,14 @@ from typing import ClassVar
 
 import numpy as np
 
-from mpmgeo.bodies.body import Body
+from mpmgeo.bodies.body import Filled
 from mpmgeo.bodies.cloud import Cloud
 from mpmgeo.bodies.lattice import Lattice
 from mpmgeo.parameters import Vector, parameter
 
 
 @dataclass(frozen=True)
-class Cuboid(Body):
+class Cuboid(Filled):
     """A box between two corners, filled with whole cells counted from the lower corner."""
 
     type: ClassVar[str] = "cuboid"

@@ -6,14 +6,14 @@ from typing import ClassVar
 
 import numpy as np
 
-from mpmgeo.bodies.body import Body
+from mpmgeo.bodies.body import Filled
 from mpmgeo.bodies.cloud import Cloud
 from mpmgeo.bodies.lattice import ROUND_OFF, Lattice
 from mpmgeo.parameters import Vector, parameter
 
 
 @dataclass(frozen=True)
-class Polygon2D(Body):
+class Polygon2D(Filled):
     """A polygon in a coordinate plane, extruded along the third axis, filled with cubic cells."""
 
     type: ClassVar[str] = "polygon_2d"

@@ -5,14 +5,14 @@ from typing import ClassVar
 
 import numpy as np
 
-from mpmgeo.bodies.body import Body
+from mpmgeo.bodies.body import Filled
 from mpmgeo.bodies.cloud import Cloud
 from mpmgeo.bodies.lattice import Lattice
 from mpmgeo.parameters import Vector, parameter
 
 
 @dataclass(frozen=True)
-class Sphere(Body):
+class Sphere(Filled):
     """A ball: the particles of the surrounding box of cells whose centres lie inside."""
 
     type: ClassVar[str] = "sphere"

@@ -59,6 +59,9 @@ FIELD_LISTS = ("material_point_results", "grid_nodal_results", "stl_contact_mesh
 FIELD_WRAPPERS = ("fields", "material_point_results", "grid_nodal_results")
 """Keys of objects that examples put around a list of fields."""
 
+NAMED = {("prescribed_velocity",): "prescribed_velocity", ("results", "probes"): "probe"}
+"""Places of containers whose entries have names, with what the names begin with in lists."""
+
 AUTOMATIC = ("time_step", "n_threads")
 """Top-level keys for which 0 means the same as an absent key."""
 
@@ -72,6 +75,9 @@ def rename(tree, report):
     _flatten_field_lists(tree, report)
     _drop_automatic(tree)
     _truncate_print(tree, report)
+    _raise_material(tree, report)
+    _take_material_id(tree, report)
+    _name_entries(tree)
 
 
 def places(node, place, path=()) -> Iterator[tuple[tuple, dict]]:
@@ -134,3 +140,32 @@ def _truncate_print(tree, report):
         if isinstance(value, float) and not value.is_integer() and abs(value) < 2**31:
             results["print"] = int(value)
             report.note((*path, "print"), f"{value} is rounded to {int(value)}")
+
+
+def _raise_material(tree, report):
+    """Make one material of all listed particles a key of the body."""
+    for path, body in places(tree, ("body", "*")):
+        listed = body.get("particles")
+        number = listed.get("material_id") if isinstance(listed, dict) else None
+        if isinstance(number, int | float) and not isinstance(number, bool):
+            body.setdefault("material_id", listed.pop("material_id"))
+            report.note((*path, "particles", "material_id"), "read as the material of the body")
+
+
+def _take_material_id(tree, report):
+    """Use the key that MPM-Geomechanics asks for beside `material_id` only where that is absent."""
+    for path, entry in places(tree, ("initial_pressure_material", "*")):
+        if "material" in entry:
+            number = entry.pop("material")
+            if "material_id" not in entry:
+                entry["material_id"] = number
+                report.written[(*path, "material_id")] = "material"
+
+
+def _name_entries(tree):
+    """Give the entries that write a file of their own a name: their key, or their number."""
+    for place, prefix in NAMED.items():
+        for path, entry in places(tree, (*place, "*")):
+            number = path[-1]
+            key = f"{prefix}_{number + 1}" if isinstance(number, int) else number
+            entry.setdefault("name", key)

@@ -1,19 +1,26 @@
 """From a case to the solver that runs it: the only place that knows every package."""
 
 from math import inf
+from pathlib import Path
 
 import numpy as np
 
 from mpmgeo.boundaries.base_motion import BaseMotion, BaseMotionAsMPMGeomechanics
 from mpmgeo.boundaries.planes import Planes
+from mpmgeo.case.bindings import bind_pressure, bind_tools
+from mpmgeo.case.populate import populate
 from mpmgeo.damping import KineticDamping, LocalDamping
 from mpmgeo.loads.point import GHOSTS
+from mpmgeo.materials.rotation import ROTATIONS
 from mpmgeo.mpm.point_loads import PointLoads
 from mpmgeo.mpm.schemes import SCHEMES
 from mpmgeo.mpm.solver import Solver
+from mpmgeo.output.particle_fields import WITH_STRAIN
 from mpmgeo.shapes import SHAPES
 from mpmgeo.state.grid import Grid, Mesh
-from mpmgeo.state.particles import ParticleSet, Population
+from mpmgeo.state.particles import ParticleSet
+from mpmgeo.state.stress_file import NAME as STRESS_FILE
+from mpmgeo.state.stress_file import read_stress
 
 TOUCH = 1e-12  # cells by which a particle must reach over a node; less is round-off
 HALF = 0.5  # cells: the largest half-size for which the shapes sum to one
@@ -25,13 +32,16 @@ def build(case):
     Raises ValueError for a record or geometry that cannot be used.
     """
     notes = []
-    population, velocity = _populate(case, notes)
+    population, velocity, law = populate(case, notes)
     mesh = Mesh.of(case.mesh.origin, case.mesh.cells_dimension, case.mesh.cells_number)
     shape = SHAPES[case.shape_function]
     legacy = case.compatibility is not None
     damping = case.damping.value if isinstance(case.damping, LocalDamping) else 0.0
     delayed = legacy and case.stress_scheme_update != "USF"
-    sets = _sets(case, population, velocity, notes)
+    tools, tool = bind_tools(case, population, velocity)
+    sets = _sets(case, population, velocity, law, tool, notes)
+    if case.load_state:
+        _load_stress(case, sets, len(population.position))
     lightest = min((float(s.m.min()) for s in sets), default=0.0)
     solver = Solver(
         grid=Grid(mesh, shape.width),
@@ -48,6 +58,8 @@ def build(case):
         delayed=damping if damping and delayed else None,
         settles=isinstance(case.damping, KineticDamping),
         cutoff=0.0 if legacy else TOUCH**shape.edge * lightest,
+        tools=tools,
+        measured=_measured(case),
     )
     return solver, notes
 
@@ -55,16 +67,16 @@ def build(case):
 def critical_time_step(case, velocity):
     """Return the time [s] in which a wave crosses a cell, particles moving at `velocity` (n, 3).
 
-    The smallest cell size over the largest wave speed of a material in use plus particle speed; for
-    MPM-Geomechanics the mean cell size over the largest wave speed of all materials.
+    The shortest of the materials in use, in the smallest cell size; for MPM-Geomechanics the mean
+    cell size over the largest wave speed of all materials.
     """
     cell = case.mesh.cells_dimension
     if case.compatibility is not None:
         return sum(cell) / 3 / max(law.sound_speed() for law in case.materials)
-    used = {body.material_id for body in case.body if body.active}
-    speed = max((law.sound_speed() for law in case.materials if law.id in used), default=0.0)
+    used = {number for body in case.body if body.active for number in body.materials}
     fastest = np.sqrt((velocity**2).sum(axis=1).max(initial=0.0))
-    return min(cell) / (speed + fastest) if speed + fastest > 0 else inf
+    laws = [law for law in case.materials if law.id in used]
+    return min((law.critical_time_step(min(cell), fastest) for law in laws), default=inf)
 
 
 def time_step(case, velocity):
@@ -74,43 +86,27 @@ def time_step(case, velocity):
     return case.critical_time_step_multiplier * critical_time_step(case, velocity)
 
 
-def _populate(case, notes):
-    """Return the particles of all bodies in row order, and their velocities (n, 3) [m/s]."""
-    cell = np.array(case.mesh.cells_dimension)
-    bodies = [body for body in case.body if body.active]
-    clouds = [body.generate(cell) for body in bodies]
-    for number, cloud in enumerate(clouds, 1):
-        notes += [f"body {number}: {note}" for note in cloud.notes]
-    counts = [len(cloud.position) for cloud in clouds]
-    position = np.concatenate([np.empty((0, 3)), *(cloud.position for cloud in clouds)])
-    force = None
-    if case.load_distributed_box:
-        force = sum(load.particle_force(position) for load in case.load_distributed_box)
-    population = Population(
-        position=position,
-        size=np.concatenate([np.empty((0, 3)), *(cloud.size for cloud in clouds)]),
-        body=np.repeat(np.arange(1, len(bodies) + 1, dtype=np.uint32), counts),
-        material=np.repeat(np.array([b.material_id for b in bodies], dtype=np.int64), counts),
-        force=force,
-    )
-    velocity = np.repeat(np.array([b.initial_velocity for b in bodies], float), counts, axis=0)
-    return population, velocity.reshape(-1, 3)
+def _measured(case):
+    """Return the intervals of steps at which the forces of planes and tools are wanted."""
+    planes = [probe.every for probe in case.results.probes if probe.type == "planes"]
+    return tuple(sorted({*planes, *(entry.every for entry in case.prescribed_velocity)}))
 
 
-def _sets(case, population, velocity, notes):
-    """Return a particle set for each material in use."""
+def _sets(case, population, velocity, laws, tool, notes):
+    """Return a particle set for each material in use, and apart for each tool."""
     cell = np.array(case.mesh.cells_dimension)
+    pressure = bind_pressure(case, population.position, notes)
+    strained = not case.results.needed_fields.isdisjoint(WITH_STRAIN)
     sets = []
-    for law in case.materials:
-        rows = np.flatnonzero(population.material == law.id)
-        if not len(rows):
-            continue
+    for index, number in np.unique(np.column_stack([laws, tool]), axis=0):
+        rows, law = np.flatnonzero((laws == index) & (tool == number)), case.materials[index]
         volume = population.size[rows].prod(axis=1)
-        symbols = law.symbols
+        symbols = law.symbols if case.compatibility is None else law.symbols_as_mpm_geomechanics
         variables = len(symbols.STATE)
         sets.append(
             ParticleSet(
                 law=symbols,
+                rotation=ROTATIONS[law.objective_rate],
                 row=rows,
                 x=population.position[rows],
                 v=velocity[rows],
@@ -120,9 +116,24 @@ def _sets(case, population, velocity, notes):
                 half=_half_sizes(population.size[rows] / cell / 2, notes),
                 force=None if population.force is None else population.force[rows],
                 state=np.zeros((len(rows), variables)) if variables else None,
+                pressure=None if pressure is None else pressure[rows],
+                strain=np.zeros((len(rows), 6)) if strained else None,
+                tool=int(number) if number >= 0 else None,
             )
         )
     return sets
+
+
+def _load_stress(case, sets, count):
+    """Give the particles the stresses of the file beside the case, or where the run begins."""
+    folders = dict.fromkeys((case.folder, Path.cwd()))
+    found = [folder / STRESS_FILE for folder in folders if (folder / STRESS_FILE).is_file()]
+    if not found:
+        where = " or ".join(map(str, folders))
+        raise ValueError(f"load_state: there is no file {STRESS_FILE} in {where}")
+    stress = read_stress(found[0], count)
+    for s in sets:
+        s.stress[:] = stress[s.row]
 
 
 def _half_sizes(half, notes):

@@ -4,14 +4,19 @@ import math
 
 import numpy as np
 
-from mpmgeo.case.aliases import places
+from mpmgeo.case.aliases import NAMED, places
 from mpmgeo.case.report import shown
 from mpmgeo.case.spec import Case
+from mpmgeo.loads import OF_THE_FLUID
+from mpmgeo.output.fields import FLUID_FIELDS, TERRAIN_FIELDS
 
 MOST_STEPS = 1e12
 """Steps beyond which no run comes to its end."""
 
 SHARE = "critical_time_step_multiplier"
+
+FROM_FILES = (("prescribed_velocity",), ("hydro_mechanical_coupling",))
+"""Places of parts with `complaints` about their files."""
 
 SLACK = 1e-9
 """Share of a cell by which a position may lie outside the mesh through round-off."""
@@ -19,14 +24,18 @@ SLACK = 1e-9
 
 def check(tree, parts, report):
     """Report contradictions between the keys of a tree; `parts` holds what could be made of it."""
-    _check_materials(tree, report)
-    _check_bodies(tree, parts, report)
+    sound = _check_bodies(tree, parts, report)
+    _check_materials(tree, sound, report)
     _check_point_loads(tree, parts, report)
     _check_steps(tree, parts, report)
     _check_earthquake(parts, report)
+    _check_files(parts, report)
+    _check_names(tree, report)
+    _check_base(parts, report)
+    _note_idle(tree, report)
 
 
-def _check_materials(tree, report):
+def _check_materials(tree, sound, report):
     defined = {}
     for path, law in places(tree, ("materials", "*")):
         number = law.get("id")
@@ -34,13 +43,24 @@ def _check_materials(tree, report):
             return
         if number in defined:
             first = report.where(defined[number])
-            report.warn((*path, "id"), f"{shown(number)} is taken by {first}, which counts")
+            counts = "counts, but for single particles, which take the last one"
+            report.warn((*path, "id"), f"{shown(number)} is taken by {first}, which {counts}")
         defined.setdefault(number, path)
-    for path, body in places(tree, ("body", "*")):
-        here, wanted = (*path, "material_id"), body.get("material_id")
-        if defined and _is_number(wanted) and wanted not in defined:
+    wanted = [
+        ((*path, "material_id"), body.get("material_id"))
+        for path, body in places(tree, ("body", "*"))
+    ]
+    wanted += [
+        ((*path, *keys), number) for path, body in sound for number, keys in body.materials.items()
+    ]
+    wanted += [
+        ((*path, "material_id"), entry.get("material_id"))
+        for path, entry in places(tree, ("initial_pressure_material", "*"))
+    ]
+    for here, number in wanted:
+        if defined and _is_number(number) and number not in defined:
             known = ", ".join(map(shown, sorted(defined)))
-            report.error(here, f"{shown(wanted)} is no id of a material; defined: {known}")
+            report.error(here, f"{shown(number)} is no id of a material; defined: {known}")
 
 
 def _is_number(value):
@@ -48,17 +68,20 @@ def _is_number(value):
 
 
 def _check_bodies(tree, parts, report):
+    """Report what keeps bodies from being made; return path and object of the active others."""
     bodies = [body for _, body in places(tree, ("body", "*"))]
     if bodies and all(body.get("active") is False for body in bodies):
         report.error(("body",), "no body is active")
-    mesh = parts.get(("mesh",))
+    mesh, sound = parts.get(("mesh",)), []
     for path, _ in places(tree, ("body", "*")):
         body = parts.get(path)
-        if mesh and body and body.active and hasattr(body, "lattice"):
-            try:
-                body.lattice(np.array(mesh.cells_dimension))
-            except ValueError as error:
-                report.error(path, str(error))
+        if mesh is None or body is None or not body.active:
+            continue
+        complaints = list(body.complaints(np.array(mesh.cells_dimension)))
+        for keys, message in complaints:
+            report.error((*path, *keys), message)
+        sound += [] if complaints else [(path, body)]
+    return sound
 
 
 def _check_point_loads(tree, parts, report):
@@ -96,8 +119,8 @@ def _automatic_step(tree, parts, report):
     laws = [parts.get(path) for path, _ in places(tree, ("materials", "*"))]
     if mesh is None or None in laws or (SHARE,) in report.errors:
         return None
-    speed = max((law.sound_speed() for law in laws), default=0.0)
-    return share * min(mesh.cells_dimension) / speed if speed else None
+    steps = [law.critical_time_step(min(mesh.cells_dimension), 0.0) for law in laws]
+    return share * min(steps) if steps else None
 
 
 def _check_earthquake(parts, report):
@@ -109,3 +132,53 @@ def _check_earthquake(parts, report):
             report.warn((), warning)
     except (OSError, ValueError) as error:
         report.error(("earthquake", "file"), str(error))
+
+
+def _check_files(parts, report):
+    for path, part in parts.items():
+        if path[:1] in FROM_FILES:
+            for key, message in part.complaints():
+                report.error((*path, key), message)
+
+
+def _check_names(tree, report):
+    """Report entries whose names are those of the same file."""
+    for place in NAMED:
+        taken = {}
+        for path, entry in places(tree, (*place, "*")):
+            name = entry.get("name")
+            if isinstance(name, str) and name.casefold() in taken:
+                first = report.where(taken[name.casefold()])
+                report.error((*path, "name"), f"{shown(name)} is taken by {first}")
+            elif isinstance(name, str):
+                taken[name.casefold()] = path
+
+
+def _check_base(parts, report):
+    """Report planes that are to have two velocities."""
+    motion, taken = parts.get(("earthquake",)), {}
+    if motion is not None and motion.active:
+        taken["Z0"] = ("earthquake",)
+    for path, part in parts.items():
+        plane = getattr(part, "plane", None) if path[:1] == ("prescribed_velocity",) else None
+        if plane in taken:
+            report.error((*path, "plane"), f"{plane} is moved by {report.where(taken[plane])}")
+        elif plane:
+            taken[plane] = path
+
+
+def _note_idle(tree, report):
+    """Note what only acts together with parts that the case does not have."""
+    for key in OF_THE_FLUID:
+        if tree.get(key):
+            report.note((key,), "has no effect with one phase")
+    results = tree.get("results")
+    results = results if isinstance(results, dict) else {}
+    for key, fields, why in (
+        ("material_point_results", FLUID_FIELDS, "exists with two phases only"),
+        ("stl_contact_mesh", TERRAIN_FIELDS, "exists with a terrain only"),
+    ):
+        words = results.get(key)
+        for index, word in enumerate(words if isinstance(words, list) else ()):
+            if isinstance(word, str) and word in fields:
+                report.note(("results", key, index), f"{shown(word)} {why}")

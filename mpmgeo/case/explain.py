@@ -44,8 +44,10 @@ def validate(tree, report):
 def place_of(path) -> tuple[str, ...]:
     """Return the place of a path: `*` stands for the name or position of an entry."""
     place = ["*" if isinstance(key, int) else key for key in path]
-    if len(place) > 1 and place[0] in CONTAINERS:
-        place[1] = "*"
+    for container in CONTAINERS:
+        depth = len(container)
+        if len(place) > depth and tuple(place[:depth]) == container:
+            place[depth] = "*"
     return tuple(place)
 
 
@@ -61,7 +63,8 @@ def accepted(schema, is_limit=False, plural=False) -> str:
     kinds = schema.get("type", "object")
     kind = kinds if isinstance(kinds, str) else kinds[0]
     if kind != "array":
-        return NOUNS[kind][plural] + _limits(schema, is_limit)
+        null = " or null" if "null" in kinds else ""
+        return NOUNS[kind][plural] + null + _limits(schema, is_limit)
     count = f" of {schema['minItems']}" if schema.get("minItems", 0) > 1 else ""
     if "prefixItems" in schema:
         return f"{NOUNS[kind][plural]}{count} {accepted(schema['prefixItems'][0], plural=True)}"

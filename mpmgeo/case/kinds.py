@@ -17,15 +17,18 @@ SCALARS = {
 
 
 class Kind(NamedTuple):
-    """One of number, integer, boolean, text, file, free, object, list (any length), fixed (length).
+    """One of number, integer, boolean, text, file, free, object, list (any length), fixed (length),
+    map (any names).
 
-    `item`: kind of the entries of list and fixed; `classes`: the dataclasses an object may be.
+    `item`: kind of the entries of list, fixed and map; `classes`: the dataclasses an object may be;
+    `is_nullable`: whether an entry may be null.
     """
 
     name: str
     item: "Kind | None" = None
     length: int = 0
     classes: tuple[type, ...] = ()
+    is_nullable: bool = False
 
     @property
     def is_container(self) -> bool:
@@ -59,10 +62,13 @@ def kind_of(annotation) -> Kind:
             return kinds[0]
         if all(kind.name == "object" for kind in kinds):
             return Kind("object", classes=sum((kind.classes for kind in kinds), ()))
+    if origin is dict and arguments[0] is str:
+        return Kind("map", kind_of(arguments[1]))
     if origin is tuple and arguments[-1] is Ellipsis:
         return Kind("list", kind_of(arguments[0]))
     if origin is tuple and len(set(arguments)) == 1:
-        return Kind("fixed", kind_of(arguments[0]), len(arguments))
+        item = kind_of(arguments[0])._replace(is_nullable=NoneType in get_args(arguments[0]))
+        return Kind("fixed", item, len(arguments))
     raise TypeError(f"{annotation} stands for no kind of JSON value")
 
 
@@ -71,7 +77,8 @@ def declared(cls) -> Iterator[Declared]:
     hints = get_type_hints(cls)
     for item in fields(cls):
         if "doc" in item.metadata:
-            yield Declared(item.name, kind_of(hints[item.name]), item)
+            key = item.metadata["key"] or item.name
+            yield Declared(key, kind_of(hints[item.name]), item)
 
 
 def word_of(cls) -> str | None:

@@ -26,6 +26,8 @@ def lint(simulation) -> list[str]:
         *_outside(position, case.mesh),
         *_empty_bodies(case, simulation.field("body")),
         *_idle_loads(case, position),
+        *_prescribed(case, position, simulation.field("body")),
+        *_probes(case),
         *_record(case, simulation.time_step),
     ]
 
@@ -48,11 +50,11 @@ def _outside(position, mesh) -> Iterator[str]:
 
 
 def _empty_bodies(case, body_of_particle) -> Iterator[str]:
-    active = [body for body in case.body if body.active]
-    counts = np.bincount(np.asarray(body_of_particle, dtype=np.int64), minlength=len(active) + 1)
-    for number, body in enumerate(active, start=1):
+    labels = [label for body in case.body if body.active for label in body.labels]
+    counts = np.bincount(np.asarray(body_of_particle, dtype=np.int64), minlength=len(labels) + 1)
+    for number, label in enumerate(labels, start=1):
         if counts[number] == 0:
-            yield f"body {number} ({body.type}) holds no particle"
+            yield f"body {number} ({label}) holds no particle"
 
 
 def _idle_loads(case, position) -> Iterator[str]:
@@ -67,6 +69,25 @@ def _idle_loads(case, position) -> Iterator[str]:
                 f"nodal_point_load, entry {number}: no particle near {list(load.position)}; "
                 "the force has no effect until one comes"
             )
+
+
+def _prescribed(case, position, body) -> Iterator[str]:
+    for entry in case.prescribed_velocity:
+        where = f"prescribed_velocity, {entry.name}"
+        if entry.plane is None and not entry.chooses(position, body).any():
+            yield f"{where}: no particle is meant; nothing happens"
+        end = entry.motion.time[-1]
+        if entry.file is not None and end < case.time:
+            yield f"{where}: the table ends at {end:g} s, the run at {case.time:g} s"
+
+
+def _probes(case) -> Iterator[str]:
+    for probe in case.results.probes:
+        points = np.array(getattr(probe, "points", ()), float).reshape(-1, 3)
+        outside = ((points < case.mesh.origin) | (points > case.mesh.upper)).any(axis=1)
+        for point in points[outside]:
+            where = f"results.probes, {probe.name}"
+            yield f"{where}: the point {point.tolist()} is outside the mesh"
 
 
 def _record(case, time_step) -> Iterator[str]:
@@ -103,7 +124,7 @@ def significant_frequency(record) -> float:
 
 def _slowest_wave(case):
     """Return the lowest wave speed of the materials in use [m/s]."""
-    used = {body.material_id for body in case.body if body.active}
+    used = {number for body in case.body if body.active for number in body.materials}
     return min(_wave_speed(law) for law in case.materials if law.id in used)
 
 

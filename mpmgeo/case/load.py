@@ -42,7 +42,6 @@ def load_case(source: str | Path | dict, strict: bool = False) -> Case:
     report.raise_errors(strict)
     return replace(
         case,
-        materials=_first_of_each_id(case.materials),
         notes=tuple(report.notes.values()),
         warnings=tuple(report.warnings.values()),
         folder=folder,
@@ -52,13 +51,6 @@ def load_case(source: str | Path | dict, strict: bool = False) -> Case:
 def resolved(case: Case) -> dict:
     """Return the canonical JSON of a case with its defaults filled in and files as full paths."""
     return plain(case)
-
-
-def _first_of_each_id(materials):
-    first = {}
-    for law in materials:
-        first.setdefault(law.id, law)
-    return tuple(first.values())
 
 
 class Builder:
@@ -78,7 +70,10 @@ class Builder:
         if kind.name == "file":
             return self._file(value, path)
         if kind.name in SCALARS:
-            return SCALARS[kind.name](value)
+            return None if value is None and kind.is_nullable else SCALARS[kind.name](value)
+        if kind.name == "map":
+            made = {k: self.value(kind.item, metadata, v, (*path, k)) for k, v in value.items()}
+            return BROKEN if BROKEN in made.values() else made
         entries = sorted(value.items()) if isinstance(value, dict) else enumerate(value)
         if metadata["choices"] is not None:
             entries = [(i, word) for i, word in entries if word in metadata["choices"]]
@@ -101,9 +96,9 @@ class Builder:
         for key, kind, field in keys:
             here = (*path, step[key])
             if key in value:
-                arguments[key] = self.value(kind, field.metadata, value[key], here)
+                arguments[field.name] = self.value(kind, field.metadata, value[key], here)
             elif field.default is MISSING:
-                arguments[key] = BROKEN
+                arguments[field.name] = BROKEN
         if any(argument is BROKEN for argument in arguments.values()):
             return BROKEN
         return self._sound(cls(**arguments), path, step)
@@ -117,6 +112,8 @@ class Builder:
             self.report.error((*path, step[key]), "; ".join(messages))
         if problems:
             return BROKEN
+        for key, message in made.remarks() if hasattr(made, "remarks") else ():
+            self.report.warn((*path, step[key]), message)
         self.parts[path] = made
         return made
 

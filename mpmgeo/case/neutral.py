@@ -9,19 +9,7 @@ def _switch(key):
     return {"type": "object", "properties": {key: {"type": "boolean", "const": False}}}
 
 
-EMPTY = {"type": ["array", "object"], "maxItems": 0, "maxProperties": 0}
-
-NEUTRAL = {
-    (): {
-        "terrain_contact": _switch("active"),
-        "hydro_mechanical_coupling": _switch("enabled"),
-        "prescribed_pressure_box": EMPTY,
-        "initial_pressure_box": EMPTY,
-        "initial_pressure_material": EMPTY,
-        "pressure_force_box": EMPTY,
-    },
-    ("results",): {"stl_contact_mesh": {"type": ["array", "string"], "items": {"const": "none"}}},
-}
+NEUTRAL = {(): {"terrain_contact": _switch("active")}}
 """Place → keys that no declaration knows, with the JSON Schema of the values without effect."""
 
 
@@ -34,29 +22,25 @@ class Unsupported(NamedTuple):
 
 UNSUPPORTED = {
     ("n_phases",): Unsupported("two phases", (2,)),
-    ("save_state",): Unsupported("saving the state", (True,)),
-    ("load_state",): Unsupported("loading a state", (True,)),
-    ("materials", "*", "type"): Unsupported("a material law", ("mohr-coulomb", "newtonian")),
-    ("body", "*", "type"): Unsupported(
-        "a kind of body", ("particles", "particles_list", "particles_from_file", "gmsh")
-    ),
     ("terrain_contact", "active"): Unsupported("contact with a terrain"),
-    ("hydro_mechanical_coupling", "enabled"): Unsupported("coupling with pore pressure"),
-    ("prescribed_pressure_box",): Unsupported("pore pressure"),
-    ("initial_pressure_box",): Unsupported("pore pressure"),
-    ("initial_pressure_material",): Unsupported("pore pressure"),
-    ("pressure_force_box",): Unsupported("pore pressure"),
-    ("results", "stl_contact_mesh", "*"): Unsupported("output of the terrain"),
 }
+
+
+FROM_OUTSIDE = ("particles", "particles_list", "particles_from_file", "gmsh")
+"""Kinds of body whose particles or files may be missing while the body is inactive."""
+
+
+SWITCHES = {"earthquake": "active", "hydro_mechanical_coupling": "enabled"}
+"""Top-level keys of parts that a key of their own switches on."""
 
 
 def drop_inactive(tree, report):
     """Remove what a case switches off itself and what would be wrong if it were read."""
-    bodies, later = tree.get("body"), UNSUPPORTED["body", "*", "type"].values
+    bodies = tree.get("body")
     idle = [
         path[-1]
         for path, body in places(tree, ("body", "*"))
-        if body.get("active") is False and body.get("type") in later
+        if body.get("active") is False and body.get("type") in FROM_OUTSIDE
     ]
     for name in idle:
         report.note(("body", name), "inactive")
@@ -66,8 +50,9 @@ def drop_inactive(tree, report):
         kept = [index for index in range(len(bodies)) if index not in idle]
         tree["body"] = [bodies[index] for index in kept]
         report.written |= {("body", new): old for new, old in enumerate(kept)}
-    motion = tree.get("earthquake")
-    if isinstance(motion, dict) and motion.get("active", False) is False:
-        if motion and "active" not in motion:
-            report.warn(("earthquake",), 'without effect, since "active" is not true')
-        del tree["earthquake"]
+    for key, switch in SWITCHES.items():
+        part = tree.get(key)
+        if isinstance(part, dict) and part.get(switch, False) is False:
+            if part and switch not in part:
+                report.warn((key,), f'without effect, since "{switch}" is not true')
+            del tree[key]

@@ -11,7 +11,18 @@ DIALECT = "https://json-schema.org/draft/2020-12/schema"
 INTEGERS = {"minimum": -(2**31), "maximum": 2**31 - 1}
 """Whole numbers that every later step can hold."""
 
-CONTAINERS = tuple(key for key, kind, _ in declared(Case) if kind.is_container)
+
+def _containers(cls, place):
+    for key, kind, _ in declared(cls):
+        if kind.is_container:
+            yield (*place, key)
+        elif kind.name == "object":
+            for inner in kind.classes:
+                yield from _containers(inner, (*place, key))
+
+
+CONTAINERS = tuple(_containers(Case, ()))
+"""Places of the lists of objects that a case may also write as an object."""
 
 BOUNDS = {
     "above": "exclusiveMinimum",
@@ -50,11 +61,11 @@ def plain(value):
     if isinstance(value, tuple):
         return [plain(v) for v in value]
     if not hasattr(value, "__dataclass_fields__"):
-        return value if isinstance(value, bool | int | float | str | dict) else str(value)
+        return value if isinstance(value, bool | int | float | str | dict | None) else str(value)
     word = word_of(type(value))
     result = {} if word is None else {"type": word}
-    for key, _, _ in declared(type(value)):
-        item = getattr(value, key)
+    for key, _, field in declared(type(value)):
+        item = getattr(value, field.name)
         if item is not None:
             result[key] = plain(item)
     return list(result.values()) if isinstance(value, LISTED) else result
@@ -128,11 +139,16 @@ def _value(kind, metadata, place, definitions):
         entry = _value(kind.item, metadata, place, definitions)
         types = ["array", "string"] if kind.item.name == "text" else "array"
         return {"type": types, "items": entry}
+    if kind.name == "map":
+        entry = _value(kind.item, metadata, place, definitions)
+        return {"type": "object", "additionalProperties": entry}
     return _scalar(kind, metadata)
 
 
 def _scalar(kind, metadata):
     result = dict(SCALARS[kind.name])
+    if kind.is_nullable:
+        result["type"] = [result["type"], "null"]
     if kind.name == "integer" and metadata["choices"] is None:
         result |= INTEGERS
     for name, value in metadata["bounds"].items():
@@ -144,7 +160,7 @@ def _scalar(kind, metadata):
 
 def _reference(kind, place, definitions):
     """Return a reference to the schema of an object, after adding it to the definitions."""
-    name = "_".join(word for word in place if word != "*")
+    name = definition_of(place)
     if name not in definitions:
         definitions[name] = {}
         if word_of(kind.classes[0]) is None:
@@ -154,6 +170,12 @@ def _reference(kind, place, definitions):
         if kind.classes[0] in LISTED:
             _allow_list(definitions[name])
     return {"$ref": f"#/$defs/{name}"}
+
+
+def definition_of(place, word=None) -> str:
+    """Return the name of the definition of an object at a place whose `"type"` is a word."""
+    keys = [*place[:-1], *(key for key in (*place[-1:], word) if key not in ("*", None))]
+    return "_".join("entry" if key == "*" else key for key in keys)
 
 
 def _choice(classes, name, place, definitions):

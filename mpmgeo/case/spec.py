@@ -13,16 +13,35 @@ from pathlib import Path
 from mpmgeo.bodies import BODIES
 from mpmgeo.boundaries.planes import BoundaryConditions
 from mpmgeo.damping import DAMPINGS, NoDamping
-from mpmgeo.loads import BaseAcceleration, BoxLoad, PointLoad
+from mpmgeo.loads import (
+    BaseAcceleration,
+    BoxLoad,
+    HydroMechanicalCoupling,
+    InitialPressureBox,
+    InitialPressureMaterial,
+    PointLoad,
+    PrescribedPressureBox,
+    PrescribedVelocity,
+    PressureForceBox,
+)
 from mpmgeo.materials import LAWS
 from mpmgeo.mpm.schemes import SCHEMES
-from mpmgeo.output.fields import GRID_FIELDS, PARTICLE_FIELDS
+from mpmgeo.output.fields import (
+    FLUID_FIELDS,
+    FURTHER_FIELDS,
+    GRID_FIELDS,
+    PARTICLE_FIELDS,
+    TERRAIN_FIELDS,
+)
+from mpmgeo.output.probes import PROBES
 from mpmgeo.parameters import Counts, Vector, parameter
+from mpmgeo.run.snapshots import SnapshotPlan
 from mpmgeo.shapes import SHAPES
 
 Law = reduce(or_, LAWS)
 Body = reduce(or_, BODIES)
 Damping = reduce(or_, DAMPINGS)
+Probe = reduce(or_, PROBES)
 
 LISTED = (PointLoad,)
 """Classes that a case may write as the list of their values, without keys."""
@@ -66,7 +85,7 @@ class Results:
     print: int = parameter("Number of outputs aimed at; 0 or less: every step", default=10)
     material_point_results: tuple[str, ...] = parameter(
         "Fields of the particle files; none: only the initial positions are written",
-        choices=(*PARTICLE_FIELDS, "all", "none"),
+        choices=(*PARTICLE_FIELDS, *FURTHER_FIELDS, *FLUID_FIELDS, "all", "none"),
         default=("id", "displacement"),
     )
     grid_nodal_results: tuple[str, ...] = parameter(
@@ -79,11 +98,25 @@ class Results:
         "not only those that particles touch",
         default=False,
     )
+    stl_contact_mesh: tuple[str, ...] = parameter(
+        "Fields of the terrain files; none: only the initial one is written",
+        choices=(*TERRAIN_FIELDS, "all", "none"),
+        default=("none",),
+    )
+    probes: tuple[Probe, ...] = parameter("Histories at points, of particles, …", default=())
 
     @property
     def particle_fields(self) -> tuple[str, ...]:
         """Return the keys of the particle fields to write, in the order of the files."""
-        return _chosen(self.material_point_results, PARTICLE_FIELDS, without=())
+        words = self.material_point_results
+        named = () if "none" in words else tuple(key for key in FURTHER_FIELDS if key in words)
+        return _chosen(words, PARTICLE_FIELDS, without=()) + named
+
+    @property
+    def needed_fields(self) -> set[str]:
+        """Return the keys of all particle fields that the files and probes hold."""
+        probed = (key for probe in self.probes for key in getattr(probe, "fields", ()))
+        return {*self.particle_fields, *probed}
 
     @property
     def grid_fields(self) -> tuple[str, ...]:
@@ -137,10 +170,13 @@ class Case:
     )
     gravity: Vector = parameter("Acceleration of gravity", unit="m/s²", default=(0.0, 0.0, 0.0))
     save_state: bool = parameter(
-        "Whether the final stresses are saved", choices=(False,), default=False
+        "Whether the final stresses are saved, in particle_stress_data.json", default=False
     )
     load_state: bool = parameter(
-        "Whether saved stresses are the initial ones", choices=(False,), default=False
+        "Whether the stresses of particle_stress_data.json are the initial ones", default=False
+    )
+    snapshot: SnapshotPlan | None = parameter(
+        "Complete states of the run, from which it can go on", default=None
     )
     compatibility: str | None = parameter(
         "Reproduce deliberate differences to the program named here",
@@ -156,6 +192,24 @@ class Case:
     )
     load_distributed_box: tuple[BoxLoad, ...] = parameter(
         "Forces shared by the particles in a box", default=()
+    )
+    prescribed_velocity: tuple[PrescribedVelocity, ...] = parameter(
+        "Velocities that bodies, particles in a box or planes of the mesh keep", default=()
+    )
+    prescribed_pressure_box: tuple[PrescribedPressureBox, ...] = parameter(
+        "Pore pressures that particles keep; with two phases", default=()
+    )
+    initial_pressure_box: tuple[InitialPressureBox, ...] = parameter(
+        "Pore pressures at the start, in boxes; with two phases", default=()
+    )
+    initial_pressure_material: tuple[InitialPressureMaterial, ...] = parameter(
+        "Pore pressures at the start, of materials; with two phases", default=()
+    )
+    pressure_force_box: tuple[PressureForceBox, ...] = parameter(
+        "Forces on the pore fluid; with two phases", default=()
+    )
+    hydro_mechanical_coupling: HydroMechanicalCoupling | None = parameter(
+        "Pore pressures from a file", default=None
     )
     earthquake: BaseAcceleration | None = parameter("Motion of the base", default=None)
     results: Results = parameter("What the run writes", default=Results())

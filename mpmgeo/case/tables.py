@@ -12,9 +12,15 @@ from mpmgeo.case.aliases import ALIASES, IGNORED, OBSOLETE
 from mpmgeo.case.explain import accepted
 from mpmgeo.case.kinds import declared, word_of
 from mpmgeo.case.neutral import NEUTRAL
-from mpmgeo.case.schema import case_schema, plain
+from mpmgeo.case.schema import case_schema, definition_of, plain
 from mpmgeo.case.spec import Case
-from mpmgeo.output.fields import GRID_FIELDS, PARTICLE_FIELDS
+from mpmgeo.output.fields import (
+    FLUID_FIELDS,
+    FURTHER_FIELDS,
+    GRID_FIELDS,
+    PARTICLE_FIELDS,
+    TERRAIN_FIELDS,
+)
 
 MARK = "<!-- From here on generated: python -m mpmgeo.case.tables -->\n"
 
@@ -37,7 +43,9 @@ def tables() -> str:
     parts = [_section(*part) for part in _objects(Case, ())]
     parts += [
         _fields("Fields of `results.material_point_results`", PARTICLE_FIELDS),
+        _fields("Further fields, by name only", FURTHER_FIELDS | FLUID_FIELDS),
         _fields("Fields of `results.grid_nodal_results`", GRID_FIELDS),
+        _fields("Fields of `results.stl_contact_mesh`", TERRAIN_FIELDS),
         _spellings(),
         _without_effect(),
     ]
@@ -64,7 +72,7 @@ def _section(cls, place):
 
 def _schema_of(cls, place):
     schema = case_schema()
-    name = "_".join(key for key in (*place, word_of(cls)) if key not in ("*", None))
+    name = definition_of(place, word_of(cls))
     return schema["$defs"][name] if name else schema
 
 

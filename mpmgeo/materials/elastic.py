@@ -1,4 +1,4 @@
-"""Isotropic linear elasticity in rate form, without rotation of the stress (small rotations).
+"""Isotropic linear elasticity in rate form; without an objective rate for small rotations only.
 
     Δσ = λ tr(Δε) I + 2G Δε,    G = E / (2(1 + ν)),    λ = K − 2G/3,    K = E / (3(1 − 2ν))
 
@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from math import sqrt
 from typing import ClassVar, NamedTuple
 
-from mpmgeo.materials.law import update_stress
+from mpmgeo.materials.law import Law, update_stress
+from mpmgeo.numerics.jit import inlined
 from mpmgeo.parameters import parameter
 
 
@@ -21,13 +22,11 @@ class Symbols(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Elastic:
+class Elastic(Law):
     """Isotropic linear elastic solid."""
 
     type: ClassVar[str] = "elastic"
 
-    id: int = parameter("Number by which bodies refer to the material")
-    density: float = parameter("Initial density", unit="kg/m³", above=0)
     young: float = parameter("Young's modulus", unit="Pa", above=0)
     poisson: float = parameter("Poisson's ratio", above=-1, below=0.5)
 
@@ -40,12 +39,13 @@ class Elastic:
 
     def sound_speed(self) -> float:
         """Return the speed of the compression wave [m/s]."""
-        s = self.symbols
-        return sqrt((s.λ + s.G2) / self.density)
+        E, ν = self.young, self.poisson
+        return sqrt(E * (1 - ν) / ((1 + ν) * (1 - 2 * ν) * self.density))
 
 
-@update_stress.register(Symbols)
-def elastic(law, stress, strain, state, dt):
+@inlined
+def hooke(law, stress, strain):
+    """Return the stress after an elastic strain increment, for any law with λ and G2 [Pa]."""
     xx, yy, zz, xy, yz, xz = strain
     p = law.λ * (xx + yy + zz)
     return (
@@ -56,3 +56,8 @@ def elastic(law, stress, strain, state, dt):
         stress[4] + law.G2 * yz,
         stress[5] + law.G2 * xz,
     )
+
+
+@update_stress.register(Symbols)
+def elastic(law, stress, strain, state, dt):
+    return hooke(law, stress, strain)

@@ -1,6 +1,28 @@
-"""What every material law provides to the kernels: the update of one point."""
+"""What every material law declares, and what it gives to the kernels: the update of one point."""
 
+from dataclasses import dataclass
+
+from mpmgeo.materials.rotation import objective_rate
 from mpmgeo.numerics.dispatch import generic
+from mpmgeo.parameters import parameter
+
+
+@dataclass(frozen=True)
+class Law:
+    """A material; laws add their parameters, `symbols` and `sound_speed()`."""
+
+    id: int = parameter("Number by which bodies refer to the material")
+    density: float = parameter("Initial density", unit="kg/m³", above=0)
+    objective_rate: str = objective_rate("none")
+
+    @property
+    def symbols_as_mpm_geomechanics(self):
+        """Return the symbols of the law as the program MPM-Geomechanics has it."""
+        return self.symbols
+
+    def critical_time_step(self, cell: float, speed: float) -> float:
+        """Return the time [s] of a wave across a `cell` [m], particles moving at `speed` [m/s]."""
+        return cell / (self.sound_speed() + speed)
 
 
 @generic

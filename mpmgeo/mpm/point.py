@@ -4,8 +4,9 @@ from numba.extending import overload
 from numba.np.unsafe.ndarray import to_fixed_tuple
 
 from mpmgeo.materials.law import update_stress
+from mpmgeo.materials.rotation import rotate_stress
 from mpmgeo.numerics.jit import inlined
-from mpmgeo.numerics.simd import lane, load_column, load_row, scale, with_velocity
+from mpmgeo.numerics.simd import add, lane, load_column, load_row, pack, scale, with_velocity
 
 
 @inlined
@@ -15,14 +16,19 @@ def momentum_and_weight(m, v, weight, p):
 
 
 @inlined
-def internal_force(mesh, V, stress, p):
-    """Return −V σ by columns, in the force lanes of three records, for slopes per cell."""
+def internal_force(mesh, V, stress, pressure, p):
+    """Return −V σ by columns, in the force lanes of three records, for slopes per cell.
+
+    `pressure` None, or pore pressure: σ is then the total stress, the effective one less pressure.
+    """
     q = -V[p]
-    return (
-        scale(q * mesh.ix, load_column(stress, p, 0)),
-        scale(q * mesh.iy, load_column(stress, p, 1)),
-        scale(q * mesh.iz, load_column(stress, p, 2)),
-    )
+    X, Y, Z = load_column(stress, p, 0), load_column(stress, p, 1), load_column(stress, p, 2)
+    if pressure is not None:
+        u = -pressure[p]
+        X = add(X, pack(0.0, 0.0, 0.0, 0.0, u, 0.0, 0.0, 0.0))
+        Y = add(Y, pack(0.0, 0.0, 0.0, 0.0, 0.0, u, 0.0, 0.0))
+        Z = add(Z, pack(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, u, 0.0))
+    return scale(q * mesh.ix, X), scale(q * mesh.iy, Y), scale(q * mesh.iz, Z)
 
 
 @inlined
@@ -36,6 +42,17 @@ def strain_increment(mesh, sx, sy, sz, dt):
         0.5 * (lane(sx, 1) * tx + lane(sy, 0) * ty),
         0.5 * (lane(sy, 2) * ty + lane(sz, 1) * tz),
         0.5 * (lane(sx, 2) * tx + lane(sz, 0) * tz),
+    )
+
+
+@inlined
+def spin_increment(mesh, sx, sy, sz, dt):
+    """Return ½(L − Lᵀ) dt as its components xy, yz, xz, from the slopes per cell of the records."""
+    tx, ty, tz = 0.5 * mesh.ix * dt, 0.5 * mesh.iy * dt, 0.5 * mesh.iz * dt
+    return (
+        lane(sy, 0) * ty - lane(sx, 1) * tx,
+        lane(sz, 1) * tz - lane(sy, 2) * ty,
+        lane(sz, 0) * tz - lane(sx, 2) * tx,
     )
 
 
@@ -53,10 +70,18 @@ def _compiled_state_of(law, state, p):
 
 
 @inlined
-def advance(law, strain, V, stress, state, p, dt):
-    """Update volume, stress and the law's variables of particle p for a strain increment."""
+def advance(law, rotation, strain, spin, V, stress, state, total, p, dt):
+    """Update volume, stress and the law's variables of particle p for a strain increment.
+
+    `rotation` None, or the objective rate by which the old stress follows the spin increment.
+    `total` None, or the strains, to which the increment is added.
+    """
     V[p] *= 1.0 + (strain[0] + strain[1] + strain[2])
+    if total is not None:
+        for a in range(6):
+            total[p, a] += strain[a]
     old = (stress[p, 0], stress[p, 1], stress[p, 2], stress[p, 3], stress[p, 4], stress[p, 5])
+    old = rotate_stress(rotation, old, spin)
     new = update_stress(law, old, strain, _state_of(law, state, p), dt)
     for a in range(6):
         stress[p, a] = new[a]

@@ -8,8 +8,10 @@ import numpy as np
 
 from mpmgeo.boundaries.base_motion import STILL, BaseMotion
 from mpmgeo.boundaries.planes import Planes
-from mpmgeo.mpm import grid_update, transfer
+from mpmgeo.mpm import grid_update, reactions, transfer
 from mpmgeo.mpm.point_loads import PointLoads
+from mpmgeo.mpm.tools import Tools
+from mpmgeo.naming import PLANES
 from mpmgeo.numerics.clock import Clock
 from mpmgeo.state.grid import Grid
 from mpmgeo.state.inspection import first_unsound, kinetic_energy
@@ -58,6 +60,8 @@ class Solver:
     delayed: float | None = None
     settles: bool = False
     cutoff: float = 0.0  # [kg] nodal mass up to which forces do not move a node
+    tools: Tools | None = None
+    measured: tuple[int, ...] = ()  # intervals of steps at which the reactions are measured
 
     time: float = 0.0
     steps: int = 0
@@ -68,15 +72,16 @@ class Solver:
         self.count = len(self.population.position)
         self.small = self.count <= SMALL
         self._motion = STILL
-        self._last_energy = 0.0
+        self.reactions = None  # (6 + tools, 3) [N] of planes and tools when last measured
+        self.last_energy = 0.0
         self.peak_energy = None  # before kinetic damping stopped the particles, if it is on
-        self._gone = self.count  # how many particles are not where the order says
+        self.gone = self.count  # how many particles are not where the order says
         if self.base is not None:
             self.planes = self.base.planes(self.planes)
 
     def arrange(self):
         """Sort the particles now if some are not where the order says."""
-        if self._gone:
+        if self.gone:
             self._sort()
 
     # The step
@@ -89,10 +94,16 @@ class Solver:
             if self.base.ended:
                 self.planes = self.base.planes_after(self.planes)
         self.clock.begin()
-        if self._gone:
+        if self.gone:
             self._sort()
             self.clock.lap("sort")
+        if self.tools is not None:
+            self.tools.advance(self.time, self.time_step)
+            self.tools.claim(self)
+            self.clock.lap("tools")
         self.scheme(self, h)
+        if self.tools is not None:
+            self.tools.hold(self.sets)
         self.steps += 1
         self.time += self.time_step
         if self.settles:
@@ -123,7 +134,7 @@ class Solver:
 
     def _sort(self):
         left = sort(self.grid, self.sets, self.small)
-        self._gone = 0
+        self.gone = 0
         for s, count in zip(self.sets, left, strict=True):
             if not count:
                 continue
@@ -139,11 +150,13 @@ class Solver:
     def _settle(self):
         """Stop all particles when the kinetic energy has passed a peak (Cundall 1982)."""
         energy = self.peak_energy = self.kinetic_energy()
-        if energy < self._last_energy:
+        if energy < self.last_energy:
             for s in self.sets:
                 s.v[: s.active] = 0.0
+            if self.tools is not None:
+                self.tools.hold(self.sets)
             energy = 0.0
-        self._last_energy = energy
+        self.last_energy = energy
 
     # Keeping a state
 
@@ -193,7 +206,8 @@ class Solver:
             self._run(
                 transfer.scatter,
                 *(number == 0, s.chunk, s.start, g.corner, s.half, s.x, s.v, s.m, s.V),
-                *(s.stress if internal else None, self.gravity, s.force, g.tiles),
+                *((s.stress, s.pressure) if internal else (None, None)),
+                *(self.gravity, s.force, 0.0 if s.tool is None else 1.0, g.tiles),
             )
         self.clock.lap("scatter")
 
@@ -202,13 +216,29 @@ class Solver:
         g, motion = self.grid, self._motion
         if self.point_loads is not None:
             self.point_loads.apply(g)
-        self._run(
-            grid_update.update_momentum,
+        arguments = (
             *(self.planes, motion.before, motion.acceleration, motion.drives),
-            *(self.local, self.delayed, h, self.cutoff),
+            *(self.local, self.delayed, *self._driven("before", "after"), h, self.cutoff),
             *(g.chunk, g.active_corner, g.below, g.tiles, g.scratch, g.nodes),
         )
+        if any((self.steps + 1) % every == 0 for every in self.measured):
+            self._measure(arguments)
+        self._run(grid_update.update_momentum, *arguments)
         self.clock.lap("grid update")
+
+    def _measure(self, arguments):
+        tools = 0 if self.tools is None else len(self.tools.given)
+        forces = np.zeros((len(self.grid.active), len(PLANES) + tools, 3))
+        self._run(reactions.add_forces, *arguments, forces)
+        self.reactions = forces.sum(axis=0)
+        self.clock.lap("reactions")
+
+    def _driven(self, *names):
+        """Return the nodes' tools, their components and velocities for kernels; None without."""
+        tools = self.tools
+        if tools is None:
+            return (None, None, *(None for _ in names))
+        return (tools.owner, tools.given, *(getattr(tools, name) for name in names))
 
     def update_velocity(self, base):
         """Make nodal velocities of the momentum in the tiles; base nodes move with the base."""
@@ -216,7 +246,7 @@ class Solver:
         velocity = self._motion.after if base == "after" else self._motion.before
         self._run(
             grid_update.update_velocity,
-            *(self.planes, velocity, self._motion.drives),
+            *(self.planes, velocity, self._motion.drives, *self._driven(base)),
             *(g.chunk, g.active_corner, g.below, g.tiles, g.scratch, g.nodes),
         )
         self.clock.lap("grid update")
@@ -225,11 +255,11 @@ class Solver:
         """Move the particles; change velocities by h times the acceleration unless h is None."""
         g = self.grid
         for s in self.sets:
-            self._gone += self._run(
+            self.gone += self._run(
                 transfer.gather,
-                *(s.law if stress else None, s.chunk, s.start, g.corner, g.above, g.nodes),
-                *(g.scratch, s.half, s.x, None if h is None else s.v, s.V, s.stress, s.state),
-                *(self.time_step, 0.0 if h is None else h),
+                *(s.law if stress else None, s.rotation, s.chunk, s.start, g.corner, g.above),
+                *(g.nodes, g.scratch, s.half, s.x, None if h is None else s.v, s.V, s.stress),
+                *(s.state, s.strain, self.time_step, 0.0 if h is None else h),
             )
         self.clock.lap("gather")
 
@@ -250,7 +280,8 @@ class Solver:
         for s in self.sets:
             self._run(
                 transfer.strain_and_force,
-                *(s.law, s.chunk, s.start, g.corner, g.above, g.nodes, g.scratch, s.half),
-                *(s.x, s.V, s.stress, s.state, self.time_step, g.tiles),
+                *(s.law, s.rotation, s.chunk, s.start, g.corner, g.above, g.nodes, g.scratch),
+                *(s.half, s.x, s.V, s.stress, s.pressure, s.state, s.strain),
+                *(self.time_step, g.tiles),
             )
         self.clock.lap("strain and force")

@@ -5,14 +5,20 @@ the block's *tile*: the block and a halo on the upper sides, (4 + S − 1)³ nod
 tiles, each from its own particles alone; gather reads from a copy of the nodes under the tile. No
 two threads ever write the same place, and every sum has one order.
 
-Record of a tile: m, m v (3), f (3), spare. Record of a node: v (3), a (3), m, spare.
+Record of a tile: m, m v (3), f (3), m of tools. Record of a node: v (3), a (3), m, spare.
 
 Loops run over chunks of blocks; a chunk has a scratch tile of its own.
 """
 
 from numba import prange
 
-from mpmgeo.mpm.point import advance, internal_force, momentum_and_weight, strain_increment
+from mpmgeo.mpm.point import (
+    advance,
+    internal_force,
+    momentum_and_weight,
+    spin_increment,
+    strain_increment,
+)
 from mpmgeo.mpm.tile import (
     block_bounds,
     block_origin,
@@ -42,16 +48,33 @@ from mpmgeo.state.grid import SIDE
 
 @blockwise
 def scatter(
-    shape, mesh, first, chunk, start, corner, half, x, v, m, V, stress, gravity, force, tiles
+    shape,
+    mesh,
+    first,
+    chunk,
+    start,
+    corner,
+    half,
+    x,
+    v,
+    m,
+    V,
+    stress,
+    pressure,
+    gravity,
+    force,
+    tool,
+    tiles,
 ):
     """Add mass, momentum and force to the tiles; `first` empties them before.
 
-    `stress` None leaves out the internal force, `force` None a load beside gravity.
+    `stress` None leaves out the internal force, `pressure` None that of a pore fluid, `force` None
+    a load beside gravity. `tool`: 1 if the velocity of the particles is prescribed, else 0.
     """
     row = SIDE + width(shape) - 1
     size = row * row * row * LANES
     for c in prange(len(chunk) - 1):
-        weight = pack(1.0, 0.0, 0.0, 0.0, gravity[0], gravity[1], gravity[2], 0.0)
+        weight = pack(1.0, 0.0, 0.0, 0.0, gravity[0], gravity[1], gravity[2], tool)
         for b in range(chunk[c], chunk[c + 1]):
             if first:
                 tiles[b * size : (b + 1) * size] = 0.0
@@ -65,7 +88,7 @@ def scatter(
                 if stress is None:
                     deposit_value(tiles, b * size + n, row, wx, wy, wz, C0)
                 else:
-                    C1, C2, C3 = internal_force(mesh, V, stress, p)
+                    C1, C2, C3 = internal_force(mesh, V, stress, pressure, p)
                     deposit(tiles, b * size + n, row, wx, wy, wz, C0, C1, C2, C3)
 
 
@@ -74,6 +97,7 @@ def gather(
     shape,
     mesh,
     law,
+    rotation,
     chunk,
     start,
     corner,
@@ -86,6 +110,7 @@ def gather(
     V,
     stress,
     state,
+    total,
     dt,
     h,
 ):
@@ -118,7 +143,8 @@ def gather(
                     gone += 1
                 if law is not None:
                     strain = strain_increment(mesh, sx, sy, sz, dt)
-                    advance(law, strain, V, stress, state, p, dt)
+                    spin = spin_increment(mesh, sx, sy, sz, dt)
+                    advance(law, rotation, strain, spin, V, stress, state, total, p, dt)
     return gone
 
 
@@ -150,6 +176,7 @@ def strain_and_force(
     shape,
     mesh,
     law,
+    rotation,
     chunk,
     start,
     corner,
@@ -160,7 +187,9 @@ def strain_and_force(
     x,
     V,
     stress,
+    pressure,
     state,
+    total,
     dt,
     tiles,
 ):
@@ -177,6 +206,8 @@ def strain_and_force(
             for p in range(start[b], start[b + 1]):
                 n, wx, wy, wz = locate(shape, mesh, origin, half, x, p)
                 _, sx, sy, sz = collect(tile, n, row, wx, wy, wz)
-                advance(law, strain_increment(mesh, sx, sy, sz, dt), V, stress, state, p, dt)
-                C1, C2, C3 = internal_force(mesh, V, stress, p)
+                strain = strain_increment(mesh, sx, sy, sz, dt)
+                spin = spin_increment(mesh, sx, sy, sz, dt)
+                advance(law, rotation, strain, spin, V, stress, state, total, p, dt)
+                C1, C2, C3 = internal_force(mesh, V, stress, pressure, p)
                 deposit(tiles, b * size + n, row, wx, wy, wz, splat(0.0), C1, C2, C3)

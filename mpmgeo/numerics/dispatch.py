@@ -13,7 +13,7 @@ NamedTuple of its symbols, and its formula is registered for that type:
 
 import inspect
 
-from numba.core import types
+from numba import types
 from numba.extending import overload
 
 from mpmgeo.numerics.jit import OPTIONS, keep_apart

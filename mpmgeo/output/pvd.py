@@ -6,6 +6,7 @@ from html import escape
 from pathlib import Path
 from xml.etree import ElementTree
 
+from mpmgeo.output.earlier import earlier
 from mpmgeo.output.whole_file import whole_file
 
 
@@ -21,6 +22,13 @@ class Collection:
         name = os.path.relpath(file, self.path.parent).replace(os.sep, "/")
         self.entries.append((float(time), name))
 
+    def take_up(self, time: float, is_due: bool) -> None:
+        """Begin with the files that an existing .pvd lists up to `time` [s].
+
+        `is_due`: whether there is a file for that time.
+        """
+        self.entries = earlier(listed(self.path), time, is_due)
+
     def write(self) -> None:
         """Write the files added so far; may be repeated as the run goes on."""
         lines = ['<?xml version="1.0"?>', '<VTKFile type="Collection" version="0.1">']
@@ -34,18 +42,23 @@ class Collection:
             file.write("\n".join(lines).encode())
 
 
+def listed(path: Path | str) -> list[tuple[float, str]]:
+    """Return time [s] and file name of all entries of a .pvd, none if it cannot be read."""
+    try:
+        entries = ElementTree.parse(path).iter("DataSet")
+        return [(float(e.get("timestep", "nan")), e.get("file", "")) for e in entries]
+    except (OSError, ElementTree.ParseError, ValueError):
+        return []
+
+
 def previous_files(path: Path | str) -> list[Path]:
     """Return the .vtu files that an existing .pvd lists, if they exist inside its folder.
 
     A missing or unreadable collection lists nothing.
     """
     path = Path(path)
-    try:
-        entries = ElementTree.parse(path).iter("DataSet")
-    except (OSError, ElementTree.ParseError):
-        return []
     folder = path.parent.resolve()
-    files = [(folder / entry.get("file", "")).resolve() for entry in entries]
+    files = [(folder / name).resolve() for _, name in listed(path)]
     return [
         path.parent / file.relative_to(folder)
         for file in dict.fromkeys(files)

@@ -1,8 +1,9 @@
 """Write the results of a run: particle files, grid files, their collections, kinetic energy."""
 
-from mpmgeo.output.energy import EnergySeries
-from mpmgeo.output.fields import grid_arrays, particle_arrays
+from mpmgeo.output.energy import EnergySeries, earlier_rows
+from mpmgeo.output.grid_fields import grid_arrays
 from mpmgeo.output.mesh_cells import all_cells, block_cells
+from mpmgeo.output.particle_fields import particle_arrays
 from mpmgeo.output.pvd import Collection, remove_previous
 from mpmgeo.output.vtu import write_hexahedra, write_points
 
@@ -25,8 +26,10 @@ class ResultFiles:
         self._cells = None
 
     def begin(self, simulation):
-        """Remove the files of the run before, write the initial state; go on in a second call."""
-        if self.written is not None:
+        """Remove the files of another run before, or go on with those of this one."""
+        path = self.folder / "time-energy.csv"
+        if simulation.goes_on:
+            self._go_on(simulation, path)
             return
         for collection in (self.particles, self.grid):
             _, left = remove_previous(collection.path)
@@ -35,8 +38,16 @@ class ResultFiles:
                     f"{collection.path.parent} holds {len(left)} other .vtu files, "
                     f"the first of them {left[0].name}; files of this run may replace some"
                 )
-        self.energy = EnergySeries(self.folder / "time-energy.csv")
+        self.energy = EnergySeries(path)
         self._write(simulation, first=True)
+
+    def _go_on(self, simulation, path):
+        """Take up the files as they were when the run had come to this state."""
+        is_due = simulation.steps % self.every == 0
+        for collection in (self.particles, self.grid):
+            collection.take_up(simulation.label, is_due)
+        self.energy = EnergySeries(path, earlier_rows(path, simulation.label, is_due))
+        self.written = simulation.steps
 
     def after_step(self, simulation):
         """Write an output if one is due."""

@@ -53,6 +53,7 @@ class Progress:
         self._start = self._shown = perf_counter()
         self._first_step = None
         self._steps = 0
+        self._begun = simulation.steps
         self._messages = len(simulation.messages)
         if self.live:
             self._begin_bar(simulation)
@@ -146,7 +147,7 @@ class Progress:
         table.add_column("stage")
         table.add_column("s", justify="right")
         table.add_column("ns/particle/step", justify="right")
-        work = max(simulation.steps * simulation.solver.count, 1)
+        work = max((simulation.steps - self._begun) * simulation.solver.count, 1)
         for stage, seconds in simulation.solver.clock.seconds.items():
             table.add_row(stage, f"{seconds:.2f}", f"{seconds / work * 1e9:.1f}")
         console = Console(file=self.stream, highlight=False)

@@ -10,6 +10,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+ARRAYS = ("row", "x", "v", "m", "V", "stress", "half", "force", "state", "pressure", "strain")
+"""Fields of a set that are arrays, if they are there, with a row for each particle."""
+
 
 class Population(NamedTuple):
     """What is fixed about all particles of a case, in row order."""
@@ -19,6 +22,7 @@ class Population(NamedTuple):
     body: np.ndarray  # (n,) body number, from 1
     material: np.ndarray  # (n,) material id
     force: np.ndarray | None  # (n, 3) constant load beside gravity [N]
+    id: np.ndarray | None = None  # (n,) number in order of creation; None: the row
 
 
 @dataclass
@@ -33,8 +37,12 @@ class ParticleSet:
     V: np.ndarray  # (n,) volume [m³]
     stress: np.ndarray  # (n, 6) effective stress [Pa]
     half: object  # half-sizes in cells: one triple, or (n, 3)
+    rotation: object = None  # objective rate: how stress follows rotation
     force: np.ndarray | None = None  # (n, 3) constant load beside gravity [N]
     state: np.ndarray | None = None  # (n, k) variables of the law
+    pressure: np.ndarray | None = None  # (n,) pore pressure [Pa], compression positive
+    strain: np.ndarray | None = None  # (n, 6) sum of the strain increments [-]
+    tool: int | None = None  # number of the prescribed velocity that the particles have
     start: np.ndarray = field(init=False)  # (blocks + 1,) first particle of each block
     chunk: np.ndarray = field(init=False)  # bounds of the chunks of blocks
 
@@ -44,8 +52,7 @@ class ParticleSet:
 
     def arrays(self):
         """Return the arrays that are permuted together, by name."""
-        names = ("row", "x", "v", "m", "V", "stress", "half", "force", "state")
-        return {name: a for name in names if isinstance(a := getattr(self, name), np.ndarray)}
+        return {name: a for name in ARRAYS if isinstance(a := getattr(self, name), np.ndarray)}
 
     @property
     def active(self) -> int:

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mpmgeo.boundaries.planes import FIXED, SLIDING
-from mpmgeo.materials.law import update_stress
+from mpmgeo.mpm.point import advance
 from mpmgeo.mpm.schemes import musl, usf, usl
 from mpmgeo.numerics.jit import compiled, inlined
 from mpmgeo.shapes.shape import stencil, width
@@ -78,7 +78,7 @@ def slopes(wx, wy, wz, i, j, k, cell):
 
 
 @compiled
-def scatter(shape, box, rows, half, x, v, m, V, stress, force, M, P, F):
+def scatter(shape, box, rows, half, x, v, m, V, stress, pressure, force, M, P, F):
     """Add mass and momentum to the nodes, and force; what is None is left out."""
     S = width(shape)
     for p in rows:
@@ -88,7 +88,8 @@ def scatter(shape, box, rows, half, x, v, m, V, stress, force, M, P, F):
         mass = m[p]
         momentum = plus(ZERO, mass, (v[p, 0], v[p, 1], v[p, 2]))
         f = force[p, 0], force[p, 1], force[p, 2]
-        xx, yy, zz = V[p] * stress[p, 0], V[p] * stress[p, 1], V[p] * stress[p, 2]
+        u = -V[p] * pressure[p]
+        xx, yy, zz = u + V[p] * stress[p, 0], u + V[p] * stress[p, 1], u + V[p] * stress[p, 2]
         xy, yz, xz = V[p] * stress[p, 3], V[p] * stress[p, 4], V[p] * stress[p, 5]
         for i in range(S):
             for j in range(S):
@@ -137,7 +138,7 @@ def held(free, n, a):
 
 
 @compiled
-def gather(shape, box, law, rows, half, x, v, V, stress, A, drift, U, dt, h):
+def gather(shape, box, law, rotation, rows, half, x, v, V, stress, state, A, drift, U, dt, h):
     """Change v by the nodal A, move x with `drift`, strain with U; what is None is left out.
 
     `law` None: no strain.
@@ -165,25 +166,17 @@ def gather(shape, box, law, rows, half, x, v, V, stress, A, drift, U, dt, h):
             v[p, c] += h * a[c]
             x[p, c] += dt * u[c]
         if law is not None:
-            strain(law, dx, dy, dz, V, stress, p, dt)
+            strain(law, rotation, dx, dy, dz, V, stress, state, p, dt)
 
 
 @inlined
-def strain(law, dx, dy, dz, V, stress, p, dt):
-    """Update volume and stress of particle p; `dx` … are the columns of its velocity gradient."""
-    ε = (
-        dx[0] * dt,
-        dy[1] * dt,
-        dz[2] * dt,
-        0.5 * (dx[1] + dy[0]) * dt,
-        0.5 * (dy[2] + dz[1]) * dt,
-        0.5 * (dz[0] + dx[2]) * dt,
-    )
-    V[p] *= 1.0 + (ε[0] + ε[1] + ε[2])
-    s = stress[p]
-    new = update_stress(law, (s[0], s[1], s[2], s[3], s[4], s[5]), ε, (), dt)
-    for c in range(6):
-        stress[p, c] = new[c]
+def strain(law, rotation, dx, dy, dz, V, stress, state, p, dt):
+    """Update the material of particle p; `dx` … are the columns of its velocity gradient."""
+    x, y, z = plus(ZERO, dt, dx), plus(ZERO, dt, dy), plus(ZERO, dt, dz)
+    xy, yz, xz = 0.5 * (x[1] + y[0]), 0.5 * (y[2] + z[1]), 0.5 * (z[0] + x[2])
+    ε = x[0], y[1], z[2], xy, yz, xz
+    W = 0.5 * (y[0] - x[1]), 0.5 * (z[1] - y[2]), 0.5 * (z[0] - x[2])
+    advance(law, rotation, ε, W, V, stress, state, None, p, dt)
 
 
 @compiled
@@ -217,14 +210,13 @@ def free_components(box, planes):
 class PlainSolver:
     """A copy of a solver's state that steps on by itself; its arrays are in row order.
 
-    Raises ValueError for a moving base, point loads, damping other than local, laws with variables.
+    `state` has the variables of each set's law, for all rows. Raises ValueError for a moving base,
+    point loads, prescribed velocities and damping other than local.
     """
 
     def __init__(self, solver):
-        if solver.base or solver.point_loads or solver.delayed or solver.settles:
-            raise ValueError("no moving base, point loads or damping but local in the plain solver")
-        if any(s.law.STATE for s in solver.sets):
-            raise ValueError("no laws with variables in the plain solver")
+        if any((solver.base, solver.point_loads, solver.tools, solver.delayed, solver.settles)):
+            raise ValueError("the plain solver has gravity, box loads and local damping only")
         self.shape, self.time_step, self.steps = solver.shape, solver.time_step, solver.steps
         self.local, self.cutoff = solver.local, solver.cutoff
         mesh = solver.grid.mesh
@@ -237,7 +229,7 @@ class PlainSolver:
 
     def _copy(self, solver):
         n = solver.count
-        self.m, self.V, self.stress = np.zeros(n), np.zeros(n), np.zeros((n, 6))
+        self.m, self.V, self.pressure, self.stress = *np.zeros((3, n)), np.zeros((n, 6))
         self.x, self.v, self.force, self.half = (np.zeros((n, 3)) for _ in range(4))
         self.active = np.zeros(n, bool)
         for s in solver.sets:
@@ -247,12 +239,18 @@ class PlainSolver:
             self.force[s.row] = s.m[:, None] * solver.gravity
             if s.force is not None:
                 self.force[s.row] += s.force
-        self.sets = [(s.law, np.sort(s.row[: s.active])) for s in solver.sets]
+            if s.pressure is not None:
+                self.pressure[s.row] = s.pressure
+        self.sets = [(s.law, s.rotation, np.sort(s.row[: s.active])) for s in solver.sets]
+        self.state = [np.zeros((n, len(s.law.STATE))) for s in solver.sets]
+        for s, state in zip(solver.sets, self.state, strict=True):
+            if s.state is not None:
+                state[s.row] = s.state
 
     def step(self):
         """Advance by one time step; the first one changes velocities by half a step."""
         if leave(self.box, self.x, self.active):
-            self.sets = [(law, rows[self.active[rows]]) for law, rows in self.sets]
+            self.sets = [(*laws, rows[self.active[rows]]) for *laws, rows in self.sets]
         self._scheme(0.5 * self.time_step if self.steps == 0 else self.time_step)
         self.steps += 1
 
@@ -282,18 +280,19 @@ class PlainSolver:
         for nodal in (M, P, F):
             if nodal is not None:
                 nodal[:] = 0.0
-        for _, rows in self.sets:
+        for *_, rows in self.sets:
             scatter(
                 *(self.shape, self.box, rows, self.half, self.x, self.v, self.m),
-                *(self.V, self.stress, self.force, M, P, F),
+                *(self.V, self.stress, self.pressure, self.force, M, P, F),
             )
 
     def _update_nodes(self, h, F):
         update_nodes(h, self.local, self.cutoff, self.free, self.M, self.P, F, self.U, self.A)
 
     def _gather(self, h, A, drift, strains=False):
-        for law, rows in self.sets:
+        for (law, rotation, rows), state in zip(self.sets, self.state, strict=True):
             gather(
-                *(self.shape, self.box, law if strains else None, rows, self.half, self.x, self.v),
-                *(self.V, self.stress, A, drift, self.U, self.time_step, h),
+                *(self.shape, self.box, law if strains else None, rotation, rows, self.half),
+                *(self.x, self.v, self.V, self.stress, state, A, drift, self.U),
+                *(self.time_step, h),
             )

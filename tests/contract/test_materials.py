@@ -15,7 +15,15 @@ from mpmgeo.materials import LAWS
 from mpmgeo.materials.law import update_stress
 
 LAW = pytest.mark.parametrize("law", LAWS, ids=[law.__name__ for law in LAWS])
-SAMPLE = {"id": 1, "density": 2000.0, "young": 1e7, "poisson": 0.3}
+SAMPLE = {
+    "id": 1,
+    "density": 2000.0,
+    "young": 1e7,
+    "poisson": 0.3,
+    "friction": 30.0,
+    "cohesion": 1e4,
+    "bulk": 1e7,
+}
 SI = {"", "Pa", "kg/m³", "m/s", "s", "m", "N", "1/s", "Pa s", "°", "m/s²"}
 DT = 1e-4
 TINY = 1e-9
@@ -23,9 +31,9 @@ VOIGT = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)]
 
 
 def sample(law):
-    """Return a material of a law with ordinary values for all keys without default."""
-    needed = [f.name for f in fields(law) if f.default is MISSING]
-    return law(**{name: SAMPLE[name] for name in needed})
+    """Return a material of a law with ordinary values, in which strains begin elastically."""
+    names = [f.name for f in fields(law) if f.name in SAMPLE or f.default is MISSING]
+    return law(**{name: SAMPLE[name] for name in names})
 
 
 def response(symbols, strain):

@@ -40,7 +40,8 @@ def simulations(monkeypatch):
 
     class Simulation:
         ends_with = None
-        interrupted = False
+        interrupted = goes_on = False
+        snapshot = None
         steps = 1
 
         def __init__(self, case, output=None, threads=None):

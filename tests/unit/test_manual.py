@@ -51,6 +51,13 @@ def test_new_models_work_as_the_manual_says(tmp_path):
     assert result.returncode == 0, result.stderr
 
 
+def test_laboratory_works_as_the_page_says():
+    """The soil fails where theory says."""
+    [(_, _, code)] = blocks("manual/materials.md")
+    result = run(code, ROOT, PYTHONPATH=str(ROOT))
+    assert result.returncode == 0, result.stderr
+
+
 @pytest.mark.parametrize("page", ["README.md", "manual/output.md"])
 def test_library_works_as_the_page_says(page):
     """The code prints the deflection of a cantilever at its end."""

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from mpmgeo.bodies import BODIES
+from mpmgeo.bodies.body import Filled
 
 ORACLES = Path(__file__).parents[3].parent / "shared" / "oracles"
 TYPES = {body.type: body for body in BODIES}
@@ -50,7 +51,7 @@ def test_positions_are_those_of_the_cpp_program(case):
 
     clouds = []
     for body in bodies:
-        if body["type"] not in TYPES:
+        if not issubclass(TYPES[body["type"]], Filled):
             break
         keys = {key: tuples(value) for key, value in body.items() if key not in ("type", "id")}
         clouds.append(TYPES[body["type"]](**keys).generate(cell))

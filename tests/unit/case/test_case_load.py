@@ -86,12 +86,15 @@ def test_loads_in_either_form(case):
         assert load_case(case | {"nodal_point_load": form}).nodal_point_load == (load,)
 
 
-def test_first_of_two_materials_of_one_id_counts(case):
+def test_two_materials_of_one_id_are_warned_of(case):
     soil = case["materials"]["soil"]
     case["materials"] = [soil, soil | {"young": 2e6}]
     loaded = load_case(case)
-    assert [law.young for law in loaded.materials] == [1e6]
-    assert loaded.warnings == ("materials[1].id: 1 is taken by materials[0], which counts",)
+    assert [law.young for law in loaded.materials] == [1e6, 2e6]
+    assert loaded.warnings == (
+        "materials[1].id: 1 is taken by materials[0], which counts, "
+        "but for single particles, which take the last one",
+    )
 
 
 RECORD = "t,ax,ay,az\n0,0,0,0\n1,1,0,0\n"

@@ -110,6 +110,31 @@ def test_waves_too_short_for_the_cells(shaken):
     assert "need cells of 0.0694 m or less" in warning
 
 
+def test_prescribed_velocities_of_nobody(case):
+    box = {"point_p1": [9, 9, 9], "point_p2": [9, 9, 9], "velocity": [1, None, None]}
+    case["prescribed_velocity"] = {"ram": box, "all": {"body": 1, "velocity": [1, 0, 0]}}
+    (warning,) = lint(simulation_of(case))
+    assert warning == "prescribed_velocity, ram: no particle is meant; nothing happens"
+
+
+def test_table_of_velocities_that_ends_early(case, tmp_path):
+    file = tmp_path / "v.csv"
+    case["prescribed_velocity"] = [{"plane": "Zn", "file": str(file)}]
+    file.write_text("0,0,0,1\n0.1,0,0,1\n")
+    assert lint(simulation_of(case)) == []
+    file.write_text("0,0,0,1\n0.09,0,0,1\n")
+    (warning,) = lint(simulation_of(case))
+    assert "the table ends at 0.09 s, the run at 0.1 s" in warning
+
+
+def test_probes_outside_the_mesh(case):
+    points = [[0, 0, 0], [2, 2, 2], [2, 2.001, 2]]
+    probe = {"type": "points", "points": points, "fields": ["stress"]}
+    case["results"] = {"probes": {"tip": probe, "walls": {"type": "planes"}}}
+    (warning,) = lint(simulation_of(case))
+    assert warning == "results.probes, tip: the point [2.0, 2.001, 2.0] is outside the mesh"
+
+
 @pytest.mark.parametrize("frequency", [1.0, 3.5, 40.0])
 def test_significant_frequency_of_a_sine(frequency):
     time = np.linspace(0, 10, 2001)

@@ -60,7 +60,7 @@ def test_every_key_is_described():
 
 
 def test_containers():
-    assert CONTAINERS == ("materials", "body", "nodal_point_load", "load_distributed_box")
+    assert {("materials",), ("body",), ("nodal_point_load",), ("results", "probes")} < {*CONTAINERS}
 
 
 def test_old_spellings_are_known_to_editors(case):

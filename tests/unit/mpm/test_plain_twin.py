@@ -1,5 +1,7 @@
 """The solver against its plain twin, in scenes where everything happens within a few steps."""
 
+import json
+
 import numpy as np
 import pytest
 
@@ -81,6 +83,18 @@ def test_agree(shape, scheme, small):
     assert crossed.sum() > 20
 
 
+@pytest.mark.parametrize("scheme", SCHEMES)
+def test_agree_with_pore_pressures(tmp_path, scheme):
+    file = tmp_path / "p.json"
+    points = [([0.9, 0.0, -1.8], 2e4), ([1.2, 0.1, -1.5], -1e4)]
+    file.write_text(json.dumps([{"position": x, "pressure": p} for x, p in points]))
+    coupling = {"enabled": True, "pore_pressure_field": str(file), "radius": 0.3}
+    case = scene(stress_scheme_update=scheme, hydro_mechanical_coupling=coupling)
+    simulation, twin = both(case)
+    assert len(np.unique(twin.pressure)) == 3
+    assert_same_steps(simulation, twin)
+
+
 def test_agree_with_damping_loads_mixed_sizes_and_departures():
     case = scene(damping={"type": "local", "value": 0.3})
     case["mesh"]["boundary_conditions"] |= {"plane_X0": "free", "plane_Yn": "free"}
@@ -95,6 +109,19 @@ def test_agree_with_damping_loads_mixed_sizes_and_departures():
     assert simulation.solver.sets[0].force is not None
     assert_same_steps(simulation, twin)
     assert 10 < twin.active.sum() < len(twin.active) - 10
+
+
+def test_agree_with_plastic_flow_and_rotation():
+    """Laws with variables, and stress that turns with the particles."""
+    case = scene()
+    plastic = {"type": "mohr-coulomb", "friction": 25.0, "cohesion": 2e3, "dilation": 5.0}
+    case["materials"][0] |= plastic | {"objective_rate": "hughes-winget"}
+    case["materials"][1] |= {"objective_rate": "jaumann"}
+    simulation, twin = both(case)
+    assert_same_steps(simulation, twin)
+    found, expected = simulation.field("plastic_strain"), twin.state[0][:, 0]
+    assert np.abs(found - expected).max() < 1e-10 * expected.max()
+    assert (expected > 0).sum() > 100
 
 
 @pytest.mark.parametrize(

@@ -5,13 +5,14 @@ import pytest
 from assembly import simulate, two_blocks
 
 from mpmgeo.output.fields import (
+    FLUID_FIELDS,
+    FURTHER_FIELDS,
     GRID_FIELDS,
     PARTICLE_FIELDS,
-    grid_arrays,
-    particle_arrays,
-    particle_field,
 )
+from mpmgeo.output.grid_fields import grid_arrays
 from mpmgeo.output.mesh_cells import all_cells
+from mpmgeo.output.particle_fields import particle_arrays, particle_field
 
 STRESS = ("XX", "YY", "ZZ", "XY", "XZ", "YZ")
 
@@ -35,6 +36,14 @@ PARTICLE_TABLE = {
     "stress": tuple((f"Stress_{axes}", np.float64, 1) for axes in STRESS),
     "body": ("Body Id", np.uint32, 1),
 }
+FURTHER_TABLE = {
+    "strain": tuple((f"Strain_{axes}", np.float64, 1) for axes in STRESS),
+    "deviatoric_strain": ("Deviatoric Strain", np.float64, 1),
+    "mean_stress": ("Mean Stress", np.float64, 1),
+    "von_mises_stress": ("Von Mises Stress", np.float64, 1),
+    "density": ("Density", np.float64, 1),
+    "volume": ("Volume", np.float64, 1),
+}
 GRID_TABLE = {
     "id": ("NodeId", np.uint64, 1),
     "active": ("Active", np.uint8, 1),
@@ -53,6 +62,7 @@ def flown():
     case = two_blocks(gravity=[0, 1.0, -9.81], load_distributed_box=[load])
     third = {"type": "cuboid", "material_id": 9, "point_p1": [3, 1, 4.5], "point_p2": [3.5, 1.5, 5]}
     case["body"].append(third | {"initial_velocity": [0, 0, 40.0]})
+    case["results"] = {"material_point_results": ["strain"]}
     return simulate(case).step(20)
 
 
@@ -64,14 +74,16 @@ def assert_like(array, table, count):
 
 def test_every_field_is_in_the_table_and_in_its_order():
     assert list(PARTICLE_FIELDS) == list(PARTICLE_TABLE)
+    assert list(FURTHER_FIELDS) == list(FURTHER_TABLE)
     assert list(GRID_FIELDS) == list(GRID_TABLE)
     assert all(PARTICLE_FIELDS.values()) and all(GRID_FIELDS.values())
 
 
-@pytest.mark.parametrize("key", PARTICLE_TABLE)
+@pytest.mark.parametrize("key", PARTICLE_TABLE | FURTHER_TABLE)
 def test_arrays_of_one_particle_field(flown, key):
     arrays = particle_arrays(flown.solver, [key])
-    tables = PARTICLE_TABLE[key] if key == "stress" else (PARTICLE_TABLE[key],)
+    table = (PARTICLE_TABLE | FURTHER_TABLE)[key]
+    tables = (table,) if isinstance(table[0], str) else table
     assert list(arrays) == [table[0] for table in tables]
     for table in tables:
         assert_like(arrays[table[0]], table, 104)
@@ -138,12 +150,49 @@ def test_absent_physics_is_zero(flown):
             assert not flown.field(key).any()
 
 
+def test_strain_is_kept_where_it_is_asked_for(flown):
+    """With small strains it is what the elastic stress says."""
+    law = flown.case.materials[0]
+    rows = flown.field("material") == law.id
+    strain, stress = flown.field("strain")[rows], flown.field("stress")[rows]
+    volume = strain[:, :3].sum(axis=1, keepdims=True)
+    expected = law.symbols.G2 * strain
+    expected[:, :3] += law.symbols.λ * volume
+    assert stress == pytest.approx(expected, rel=1e-9, abs=1e-9 * np.abs(stress).max())
+    with pytest.raises(KeyError, match="kept only if"):
+        simulate(two_blocks()).field("strain")
+
+
+def test_invariants(flown):
+    def deviator(components):
+        a = components[:, [[0, 3, 5], [3, 1, 4], [5, 4, 2]]]
+        return a - np.trace(a, axis1=1, axis2=2)[:, None, None] / 3 * np.eye(3)
+
+    stress, strain = flown.field("stress"), flown.field("strain")
+    assert flown.field("mean_stress") == pytest.approx(stress[:, :3].mean(axis=1))
+    size = np.sqrt((deviator(stress) ** 2).sum(axis=(1, 2)))
+    assert flown.field("von_mises_stress") == pytest.approx(np.sqrt(3 / 2) * size)
+    size = np.sqrt((deviator(strain) ** 2).sum(axis=(1, 2)))
+    assert flown.field("deviatoric_strain") == pytest.approx(np.sqrt(2 / 3) * size)
+
+
+def test_density(flown):
+    assert flown.field("density") == pytest.approx(flown.field("mass") / flown.field("volume"))
+    assert np.ptp(flown.field("density")) > 0
+
+
 def test_unknown_field(flown):
     with pytest.raises(KeyError, match="porosity"):
         particle_field(flown.solver, "porosity")
 
 
-@pytest.mark.parametrize("key", [*PARTICLE_FIELDS, "position", "mass", "volume"])
+@pytest.mark.parametrize("key", FLUID_FIELDS)
+def test_fields_of_a_fluid_need_one(flown, key):
+    with pytest.raises(KeyError, match=key):
+        flown.field(key)
+
+
+@pytest.mark.parametrize("key", [*PARTICLE_FIELDS, *FURTHER_FIELDS, "position", "mass"])
 def test_fields_are_copies(flown, key):
     """Whoever changes one changes nothing else."""
     before = flown.field(key)

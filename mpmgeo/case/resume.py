@@ -1,0 +1,28 @@
+"""What a snapshot says about its case, and whether a case is the one of a snapshot."""
+
+from mpmgeo.case.fingerprint import differences, fingerprint
+from mpmgeo.case.load import load_case, resolved
+
+MOST_DIFFERENCES = 5
+"""Differences that a message names."""
+
+
+def case_facts(case) -> dict:
+    """Return the facts by which a snapshot knows its case; OSError if a file cannot be read."""
+    return {"case": resolved(case), "fingerprint": fingerprint(case)}
+
+
+def case_of(path, facts, case=None):
+    """Return the case with which a run goes on: `case`, or the one in the facts of a snapshot.
+
+    Raises ValueError if `case` is not that of the snapshot at `path`, or its files have changed.
+    """
+    if "case" not in facts or "fingerprint" not in facts:
+        raise ValueError(f"{path}: is no snapshot of a run")
+    case = load_case(facts["case"]) if case is None else case
+    found = differences(facts["fingerprint"], fingerprint(case))
+    if found:
+        named = ", ".join(found[:MOST_DIFFERENCES])
+        more = f" and {len(found) - MOST_DIFFERENCES} more" if found[MOST_DIFFERENCES:] else ""
+        raise ValueError(f"{path}: is of another case, or its files have changed: {named}{more}")
+    return case

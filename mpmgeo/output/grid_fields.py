@@ -1,0 +1,47 @@
+"""What the fields of the grid hold, and under which names files hold them."""
+
+import numpy as np
+
+_NAMES = {
+    "id": "NodeId",
+    "active": "Active",
+    "mass": "Mass",
+    "velocity": "Velocity",
+    "distance_levelset": "distance level set",
+    "density_levelset": "density levelset",
+    "volume": "Volume",
+}
+
+
+def grid_arrays(solver, node_id, keys):
+    """Return the arrays of a grid file at the nodes `node_id` (n,), ascending, by their names."""
+    grid, mesh = solver.grid, solver.grid.mesh
+    nodes = np.array([mesh.nx, mesh.ny, mesh.nz]) + 5
+    mass, velocity = np.zeros(len(node_id)), np.zeros((len(node_id), 3))
+    if {"active", "mass", "velocity"} & set(keys):
+        index, records = grid.indices().reshape(-1, 3) + 2, grid.records().reshape(-1, 8)
+        inside = (index >= 0).all(axis=1) & (index < nodes).all(axis=1)
+        used = inside & (records[:, 6] > solver.cutoff)
+        index, records = index[used], records[used]
+        number = index @ np.array([1, nodes[0], nodes[0] * nodes[1]])
+        at = np.searchsorted(node_id, number.astype(np.uint64))
+        mass[at], velocity[at] = records[:, 6], records[:, :3]
+    values = {
+        "id": lambda: node_id.astype(np.uint64),
+        "active": lambda: (mass > 0).astype(np.uint8),
+        "mass": lambda: mass,
+        "velocity": lambda: velocity,
+        "volume": lambda: _volume(mesh, nodes, node_id),
+    }
+    absent = lambda: np.zeros(len(node_id))  # noqa: E731
+    return {_NAMES[key]: values.get(key, absent)() for key in keys}
+
+
+def _volume(mesh, nodes, node_id):
+    """Return the nodal volumes: a cell's, halved on every outer face of the ghosted mesh."""
+    number = node_id.astype(np.int64)
+    volume = np.full(len(number), mesh.hx * mesh.hy * mesh.hz)
+    for count in nodes:
+        number, index = number // count, number % count
+        volume[(index == 0) | (index == count - 1)] *= 0.5
+    return volume

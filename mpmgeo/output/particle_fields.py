@@ -1,0 +1,133 @@
+"""What the fields of the particles hold, and under which names files hold them."""
+
+import numpy as np
+
+from mpmgeo.output.fields import PARTICLE_FIELDS
+
+AXES = ("XX", "YY", "ZZ", "XY", "YZ", "XZ")
+_FILE_ORDER = (0, 1, 2, 3, 5, 4)  # files list xz before yz
+_NAMES = {
+    "id": "Particle Id",
+    "material": "Material Id",
+    "active": "Particle Active",
+    "pressure": "Pressure",
+    "pore_pressure": "Pore Pressure",
+    "plastic_strain": "Effective Plastic Strain",
+    "external_force": "External Force",
+    "displacement": "Displacement",
+    "distance_levelset": "Distance-levelset",
+    "velocity": "Velocity",
+    "body": "Body Id",
+    "deviatoric_strain": "Deviatoric Strain",
+    "mean_stress": "Mean Stress",
+    "von_mises_stress": "Von Mises Stress",
+    "density": "Density",
+    "volume": "Volume",
+}
+_ARRAYS = {"position": "x", "velocity": "v", "mass": "m", "volume": "V", "stress": "stress"}
+TENSORS = {"stress": "Stress", "strain": "Strain"}
+WITH_STRAIN = ("strain", "deviatoric_strain")
+"""Fields for which the particles' strains must be kept."""
+
+
+def particle_field(solver, key):
+    """Return a field of all particles in row order: any key of a case, or position, mass.
+
+    Shape (n,), (n, 3), or (n, 6) for stress and strain (xx yy zz xy yz xz); SI units. Raises
+    KeyError for an unknown key, and for a strain that is not kept.
+    """
+    parts = [field_of(solver, s, key) for s in solver.sets]
+    first = parts[0] if parts else np.empty(0)
+    field = np.zeros((len(solver.population.position), *first.shape[1:]), first.dtype)
+    for s, part in zip(solver.sets, parts, strict=True):
+        field[s.row] = part
+    return field
+
+
+def field_of(solver, s, key, at=slice(None)):
+    """Return a field of the particles `at` (indices or a slice) of a set, as `particle_field`."""
+    if key in _ARRAYS:
+        return getattr(s, _ARRAYS[key])[at]
+    if key in _VALUES:
+        return _VALUES[key](solver, s, at)
+    if key in PARTICLE_FIELDS:
+        count = len(s.row[at])
+        return np.zeros((count, 3) if key.startswith("particle_contact_force") else count)
+    raise KeyError(key)
+
+
+def particle_arrays(solver, keys):
+    """Return the arrays of a particle file for some keys of a case, by their names."""
+    arrays = {}
+    for key in keys:
+        field = particle_field(solver, key)
+        if key in TENSORS:
+            for component in _FILE_ORDER:
+                arrays[f"{TENSORS[key]}_{AXES[component]}"] = field[:, component]
+        else:
+            arrays[_NAMES.get(key, key)] = field
+    return arrays
+
+
+def _id(solver, s, at):
+    numbers, rows = solver.population.id, s.row[at]
+    return rows.astype(np.uint64) if numbers is None else numbers[rows]
+
+
+def _active(solver, s, at):
+    return (np.arange(len(s.row))[at] < s.active).astype(np.uint8)
+
+
+def _pressure(solver, s, at):
+    return np.zeros(len(s.row[at])) if s.pressure is None else s.pressure[at]
+
+
+def _plastic_strain(solver, s, at):
+    if "plastic_strain" not in s.law.STATE:
+        return np.zeros(len(s.row[at]))
+    return s.state[at, s.law.STATE.index("plastic_strain")]
+
+
+def _undrained_strength(solver, s, at):
+    return getattr(s.law, "su", 0.0) * np.maximum(-s.stress[at, 2], 0.0)
+
+
+def _external_force(solver, s, at):
+    weight = s.m[at][:, None] * np.asarray(solver.gravity)
+    return weight if s.force is None else weight + s.force[at]
+
+
+def _strain(solver, s, at):
+    if s.strain is None:
+        raise KeyError("strain: kept only if the results or a probe of the case ask for it")
+    return s.strain[at]
+
+
+def _mean(tensor):
+    return tensor[:, :3].mean(axis=1)
+
+
+def _size_of_deviator(tensor):
+    """Return √(d:d) for the deviators d of tensors (n, 6)."""
+    normal = tensor[:, :3] - _mean(tensor)[:, None]
+    return np.sqrt((normal**2).sum(axis=1) + 2 * (tensor[:, 3:] ** 2).sum(axis=1))
+
+
+_VALUES = {
+    "id": _id,
+    "material": lambda solver, s, at: solver.population.material[s.row[at]].astype(np.uint32),
+    "body": lambda solver, s, at: solver.population.body[s.row[at]],
+    "active": _active,
+    "Su": _undrained_strength,
+    "plastic_strain": _plastic_strain,
+    "pressure": _pressure,
+    "pore_pressure": _pressure,
+    "external_force": _external_force,
+    "displacement": lambda solver, s, at: s.x[at] - solver.population.position[s.row[at]],
+    "particle_contact_flag": lambda solver, s, at: np.zeros(len(s.row[at]), np.uint8),
+    "strain": _strain,
+    "deviatoric_strain": lambda *of: np.sqrt(2 / 3) * _size_of_deviator(_strain(*of)),
+    "mean_stress": lambda solver, s, at: _mean(s.stress[at]),
+    "von_mises_stress": lambda solver, s, at: np.sqrt(1.5) * _size_of_deviator(s.stress[at]),
+    "density": lambda solver, s, at: s.m[at] / s.V[at],
+}

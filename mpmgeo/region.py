@@ -1,0 +1,36 @@
+"""A box in space that chooses particles."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from mpmgeo.parameters import Vector, parameter
+
+
+def turned(low, high) -> Iterator[tuple[str, str]]:
+    """Yield (key, message) for every axis along which a box is turned round."""
+    for name, lower, upper in zip("xyz", low, high, strict=True):
+        if upper < lower:
+            yield "point_p2", f"{name} is {upper:g}, below that of point_p1, {lower:g}"
+
+
+def within(low, high, position: np.ndarray) -> np.ndarray:
+    """Tell which of the positions (n, 3) [m] lie in a closed box."""
+    return ((position >= low) & (position <= high)).all(axis=1)
+
+
+@dataclass(frozen=True)
+class Box:
+    """A closed box along the axes."""
+
+    point_p1: Vector = parameter("Corner of lowest coordinates", unit="m")
+    point_p2: Vector = parameter("Corner of highest coordinates", unit="m")
+
+    def problems(self) -> Iterator[tuple[str, str]]:
+        """Yield (key, message) for every axis along which the box is turned round."""
+        yield from turned(self.point_p1, self.point_p2)
+
+    def contains(self, position: np.ndarray) -> np.ndarray:
+        """Tell which of the positions (n, 3) [m] lie in the box."""
+        return within(self.point_p1, self.point_p2, position)
