@@ -58,10 +58,12 @@ class Filled(Body):
         return {self.material_id: ("material_id",)}
 
     def complaints(self, cell: np.ndarray) -> Iterator[tuple[tuple, str]]:
+        """Yield (keys, message) if the geometry cannot be filled with particles."""
         try:
             self.lattice(cell)
         except ValueError as error:
             yield (), str(error)
 
     def clouds(self, cell: np.ndarray) -> tuple[Cloud, ...]:
+        """Return the particles of the one body."""
         return (self.generate(cell)._replace(material=self.material_id),)

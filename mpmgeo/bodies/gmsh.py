@@ -66,6 +66,7 @@ class Gmsh(Body):
         return self._mesh.volumes(self._groups)
 
     def complaints(self, cell: np.ndarray) -> Iterator[tuple[tuple, str]]:
+        """Yield (keys, message) for what is wrong with the file."""
         try:
             unknown = list(self._unknown(self._mesh))
             yield from unknown
@@ -96,6 +97,7 @@ class Gmsh(Body):
             yield ("physical_to_material", name), text
 
     def clouds(self, cell: np.ndarray) -> tuple[Cloud, ...]:
+        """Return the particles of each group; raises ValueError if the file is wrong."""
         pieces = [piece for volume in self._volumes.values() for piece in volume.pieces]
         start = np.min([piece.nodes.min(axis=(0, 1)) for piece in pieces], axis=0)
         return tuple(

@@ -40,6 +40,7 @@ class ParticlesFromFile(Body):
         return dict.fromkeys(np.unique(self.table.material).tolist(), ("file",))
 
     def complaints(self, cell: np.ndarray) -> Iterator[tuple[tuple, str]]:
+        """Yield (keys, message) for what is wrong with the file."""
         try:
             _ = self.table
         except ValueError as error:

@@ -35,7 +35,6 @@ from mpmgeo.output.fields import (
 )
 from mpmgeo.output.probes import PROBES
 from mpmgeo.parameters import Counts, Vector, parameter
-from mpmgeo.run.snapshots import SnapshotPlan
 from mpmgeo.shapes import SHAPES
 
 Law = reduce(or_, LAWS)
@@ -138,6 +137,14 @@ def _chosen(words, fields, without):
     if "none" in words:
         return without
     return tuple(key for key in fields if "all" in words or key in words)
+
+
+@dataclass(frozen=True)
+class SnapshotPlan:
+    """When the complete state is written, from which a run can go on."""
+
+    every: int = parameter("Steps between two snapshots", minimum=1)
+    keep: int = parameter("Number of snapshots that are kept, the last ones", minimum=1, default=2)
 
 
 @dataclass(frozen=True)

@@ -26,6 +26,7 @@ _NAMES = {
 }
 _ARRAYS = {"position": "x", "velocity": "v", "mass": "m", "volume": "V", "stress": "stress"}
 TENSORS = {"stress": "Stress", "strain": "Strain"}
+_VECTORS = ("position", "velocity", "displacement", "external_force")
 WITH_STRAIN = ("strain", "deviatoric_strain")
 """Fields for which the particles' strains must be kept."""
 
@@ -37,8 +38,9 @@ def particle_field(solver, key):
     KeyError for an unknown key, and for a strain that is not kept.
     """
     parts = [field_of(solver, s, key) for s in solver.sets]
-    first = parts[0] if parts else np.empty(0)
-    field = np.zeros((len(solver.population.position), *first.shape[1:]), first.dtype)
+    if not parts:
+        return np.empty((0, *_shape(key)))
+    field = np.zeros((len(solver.population.position), *_shape(key)), parts[0].dtype)
     for s, part in zip(solver.sets, parts, strict=True):
         field[s.row] = part
     return field
@@ -51,9 +53,15 @@ def field_of(solver, s, key, at=slice(None)):
     if key in _VALUES:
         return _VALUES[key](solver, s, at)
     if key in PARTICLE_FIELDS:
-        count = len(s.row[at])
-        return np.zeros((count, 3) if key.startswith("particle_contact_force") else count)
+        return np.zeros((len(s.row[at]), *_shape(key)))
     raise KeyError(key)
+
+
+def _shape(key):
+    """Return the shape of a field's value at one particle."""
+    if key in TENSORS:
+        return (6,)
+    return (3,) if key in _VECTORS or key.startswith("particle_contact_force") else ()
 
 
 def particle_arrays(solver, keys):

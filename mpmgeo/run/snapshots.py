@@ -1,19 +1,8 @@
 """Snapshots of a run: when they are written, and how many are kept."""
 
 import re
-from dataclasses import dataclass
-
-from mpmgeo.parameters import parameter
 
 FOLDER = "snapshots"
-
-
-@dataclass(frozen=True)
-class SnapshotPlan:
-    """When the complete state is written, from which a run can go on."""
-
-    every: int = parameter("Steps between two snapshots", minimum=1)
-    keep: int = parameter("Number of snapshots that are kept, the last ones", minimum=1, default=2)
 
 
 class Snapshots:
