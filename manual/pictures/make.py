@@ -129,6 +129,27 @@ def moving_base(folder):
     figure.savefig(HERE / "moving_base.png", dpi=130)
 
 
+def column_collapse(folder):
+    """The heap of bars at rest, what moved in it, and the lines of the experiment."""
+    simulation = run("column_collapse", folder)
+    position = simulation.field("position")
+    moved = np.linalg.norm(simulation.field("displacement"), axis=1) > 0.001
+    figure, axes = plt.subplots(figsize=(9, 2.5), layout="constrained")
+    for chosen, colour, label in (
+        (moved, "#e8b04a", "moved by more than 1 mm"),
+        (~moved, "#5b7aa8", "moved by less"),
+    ):
+        axes.plot(*position[chosen][:, [0, 2]].T, ".", markersize=1.6, color=colour, label=label)
+    for name, style in (("free_surface", "o-"), ("failure_line", "^-")):
+        line = np.loadtxt(INPUTS / "column_collapse" / f"{name}.csv", delimiter=",", skiprows=1).T
+        label = f"experiment: {name.replace('_', ' ')}"
+        axes.plot(*line, style, color="black", markersize=4, linewidth=1, label=label)
+    axes.add_patch(plt.Rectangle((0, 0), 0.2, 0.1, fill=False, linestyle=":"))
+    axes.set(aspect="equal", xlim=(0, 0.55), ylim=(0, 0.11), xlabel="x [m]", ylabel="z [m]")
+    axes.legend(loc="upper right", frameon=False, markerscale=1.5, fontsize=9)
+    figure.savefig(HERE / "column_collapse.png", dpi=130)
+
+
 def tile():
     """Blocks of nodes, the tile of one of them, and the nodes of one particle (GIMP)."""
     figure, axes = plt.subplots(figsize=(7.6, 4.2), layout="constrained")
@@ -166,6 +187,6 @@ def _square(corner, side, **style):
 
 if __name__ == "__main__":
     tile()
-    for picture in (cantilever, boussinesq, moving_base):
+    for picture in (cantilever, boussinesq, moving_base, column_collapse):
         with TemporaryDirectory() as folder:
             picture(Path(folder))
