@@ -35,7 +35,7 @@ def collapse(floor, cells=16):
 
 
 def compare(curves):
-    """Return how far the front is ahead (shares), how late the experiment is (T), the error of H."""
+    """Return by what share the front is ahead, how late the experiment is in T, the error of H."""
     front, height = experiment["front"], experiment["height"]
     return {
         "ahead": difference(curves["front"], front) / front[:, 1],
