@@ -1,5 +1,6 @@
 """Draw the pictures of the manual, most of them from runs of the cases that ship."""
 
+import runpy
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -7,6 +8,7 @@ import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 import pyvista
+from matplotlib.collections import PatchCollection
 
 import mpmgeo
 
@@ -14,6 +16,7 @@ matplotlib.use("agg")
 
 HERE = Path(__file__).parent
 INPUTS = HERE.parents[1] / "inputs"
+EXAMPLES = HERE.parents[1] / "examples"
 BAR = {"color": "black", "fmt": "%.3g", "title_font_size": 24, "label_font_size": 20}
 SURFACE = {"ambient": 0.35, "diffuse": 0.75, "show_edges": True, "edge_opacity": 0.25}
 
@@ -150,6 +153,27 @@ def column_collapse(folder):
     figure.savefig(HERE / "column_collapse.png", dpi=130)
 
 
+def dam_break():
+    """Water of the dam break at four instants, and its front and height beside the experiment."""
+    example = runpy.run_path(EXAMPLES / "06_dam_break.py")
+    simulation = mpmgeo.Simulation(mpmgeo.load_case(INPUTS / "dam_break" / "case.json"))
+    figure = example["plot"](example["found"])
+    figure.savefig(HERE / "dam_break.png", dpi=110)
+    size = simulation.solver.population.size[0] * 1e3
+    figure, axes = plt.subplots(1, 4, figsize=(9, 2.1), layout="constrained", sharey=True)
+    for T, axis in zip((0, 1, 2, 3), axes, strict=True):
+        simulation.run(until=T * np.sqrt(0.05715 / (2 * 9.81)))
+        x, _, z = 1e3 * simulation.field("position").T
+        speed = np.linalg.norm(simulation.field("velocity"), axis=1)
+        corners = np.column_stack([x - size[0] / 2, z - size[2] / 2])
+        squares = [plt.Rectangle(corner, size[0], size[2]) for corner in corners]
+        water = PatchCollection(squares, array=speed, cmap="viridis", clim=(0, 2))
+        axis.add_collection(water)
+        axis.set(title=f"T = {T}", xlim=(0, 240), ylim=(0, 120), aspect="equal", xlabel="x [mm]")
+    figure.colorbar(water, ax=axes, label="speed [m/s]")
+    figure.savefig(HERE / "dam_break_water.png", dpi=110)
+
+
 def tile():
     """Blocks of nodes, the tile of one of them, and the nodes of one particle (GIMP)."""
     figure, axes = plt.subplots(figsize=(7.6, 4.2), layout="constrained")
@@ -187,6 +211,7 @@ def _square(corner, side, **style):
 
 if __name__ == "__main__":
     tile()
+    dam_break()
     for picture in (cantilever, boussinesq, moving_base, column_collapse):
         with TemporaryDirectory() as folder:
             picture(Path(folder))
