@@ -56,6 +56,7 @@ def build(case):
         point_loads=_point_loads(case),
         local=damping if damping and not delayed else None,
         delayed=damping if damping and delayed else None,
+        leaky=legacy,
         settles=isinstance(case.damping, KineticDamping),
         cutoff=0.0 if legacy else TOUCH**shape.edge * lightest,
         tools=tools,

@@ -16,7 +16,7 @@ from mpmgeo.numerics.clock import Clock
 from mpmgeo.state.grid import Grid
 from mpmgeo.state.inspection import first_unsound, kinetic_energy
 from mpmgeo.state.particles import ParticleSet, Population
-from mpmgeo.state.sorting import sort
+from mpmgeo.state.sorting import OPEN, Walls, sort
 
 SMALL = 4096  # particles up to which threads cost more than they save
 
@@ -59,6 +59,7 @@ class Solver:
     local: float | None = None
     delayed: float | None = None
     settles: bool = False
+    leaky: bool = False  # whether particles may pass planes that hold, as in MPM-Geomechanics
     cutoff: float = 0.0  # [kg] nodal mass up to which forces do not move a node
     tools: Tools | None = None
     measured: tuple[int, ...] = ()  # intervals of steps at which the reactions are measured
@@ -133,7 +134,7 @@ class Solver:
         raise Unsound(material, int(s.row[p]), self.steps, self.time, *state)
 
     def _sort(self):
-        left = sort(self.grid, self.sets, self.small)
+        left = sort(self.grid, self.sets, self.small, self._walls())
         self.gone = 0
         for s, count in zip(self.sets, left, strict=True):
             if not count:
@@ -146,6 +147,14 @@ class Solver:
             first = s.active + int(s.row[new].argmin())
             rows = np.sort(s.row[new])
             self.departures.append(Departure(self.time, rows, s.x[first].copy()))
+
+    def _walls(self):
+        """Return the planes that keep particles in; who begins outside the mesh stays there."""
+        if self.leaky or self.steps == 0:
+            return OPEN
+        walls = self.planes.walls
+        moved = [] if self.tools is None else filter(None, self.tools.planes)
+        return walls._replace(**{Walls._fields[axis + 3 * side]: False for axis, side in moved})
 
     def _settle(self):
         """Stop all particles when the kinetic energy has passed a peak (Cundall 1982)."""
