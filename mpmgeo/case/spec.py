@@ -59,6 +59,9 @@ class Mesh:
     boundary_conditions: BoundaryConditions = parameter(
         "Conditions on the six bounding planes", default=BoundaryConditions()
     )
+    boundary_conditions_fluid: BoundaryConditions = parameter(
+        "Conditions of the planes on the pore fluid; with two phases", default=BoundaryConditions()
+    )
 
     @property
     def upper(self) -> Vector:
@@ -108,7 +111,8 @@ class Results:
     def particle_fields(self) -> tuple[str, ...]:
         """Return the keys of the particle fields to write, in the order of the files."""
         words = self.material_point_results
-        named = () if "none" in words else tuple(key for key in FURTHER_FIELDS if key in words)
+        further = () if "none" in words else (*FURTHER_FIELDS, *FLUID_FIELDS)
+        named = tuple(key for key in further if key in words)
         return _chosen(words, PARTICLE_FIELDS, without=()) + named
 
     @property
@@ -171,7 +175,21 @@ class Case:
     shape_function: str = parameter(
         "Interpolation between particles and grid", choices=tuple(SHAPES), default="GIMP"
     )
-    n_phases: int = parameter("Number of phases", choices=(1,), default=1)
+    n_phases: int = parameter(
+        "Number of phases: the solid alone, or with a fluid in its pores",
+        choices=(1, 2),
+        default=1,
+    )
+    conductivity_gravity: float = parameter(
+        "Acceleration in the unit weight of the fluid that hydraulic conductivity refers to",
+        unit="m/s²",
+        above=0,
+        default=9.81,
+    )
+    pore_pressure_smoothing: bool = parameter(
+        "Whether nodes average the volume strain that changes pore pressures; with two phases",
+        default=True,
+    )
     n_threads: int | None = parameter(
         "Number of threads; absent or 0: all processors", minimum=0, default=None
     )

@@ -1,6 +1,7 @@
 """Write the results of a run: particle files, grid files, their collections, kinetic energy."""
 
 from mpmgeo.output.energy import EnergySeries, earlier_rows
+from mpmgeo.output.fields import FLUID_FIELDS
 from mpmgeo.output.grid_fields import grid_arrays
 from mpmgeo.output.mesh_cells import all_cells, block_cells
 from mpmgeo.output.particle_fields import particle_arrays
@@ -17,6 +18,8 @@ class ResultFiles:
 
     def __init__(self, folder, case, every):
         self.results = case.results
+        absent = () if case.n_phases == 2 else FLUID_FIELDS
+        self.fields = [key for key in case.results.particle_fields if key not in absent]
         self.mesh = case.mesh
         self.every = every
         self.folder = folder
@@ -71,7 +74,7 @@ class ResultFiles:
     def _write_particles(self, simulation, label):
         number = len(self.particles.entries) + 1
         path = self.particles.path.parent / f"particles_{number}.vtu"
-        arrays = particle_arrays(simulation.solver, self.results.particle_fields)
+        arrays = particle_arrays(simulation.solver, self.fields)
         write_points(path, simulation.field("position"), arrays)
         self.particles.add(label, path)
         self.particles.write()
