@@ -167,7 +167,7 @@ def update_velocity(
 
 @blockwise
 def average(shape, chunk, below, tiles, scratch, flux):
-    """Give the nodes the mean divergence of their particles, which `spread` put into the tiles."""
+    """Give every cell the mean divergence of its particles, which `spread` put into the tiles."""
     row = SIDE + width(shape) - 1
     reach = 1 + (width(shape) + SIDE - 2) // SIDE
     for c in prange(len(chunk) - 1):

@@ -5,7 +5,8 @@ pressure. Tiles and chunks are those of `transfer`. Two records of a tile belong
 
     flow:  m, m v (3), ∫ p ∇S dV (3), V           pores:  pore volume, drag (3), force (3), spare
 
-Record of a node: flux q (3), a (3), divergence of the flux, porosity. q is the velocity of the
+Record of a node: flux q (3), a (3), divergence of the flux in the
+cell above, porosity. q is the velocity of the
 whole pore fluid and solid as a volume, v_s + n (v_f − v_s); its divergence presses the fluid.
 """
 
@@ -18,6 +19,7 @@ from mpmgeo.mpm.tile import (
     copy_tile,
     deposit,
     deposit_value,
+    in_block,
     locate,
 )
 from mpmgeo.numerics.jit import blockwise, inlined
@@ -30,6 +32,7 @@ from mpmgeo.numerics.simd import (
     quarter,
     scale,
     store_row,
+    truncate,
     with_velocity,
 )
 from mpmgeo.shapes.shape import width
@@ -73,6 +76,13 @@ def scatter(
                     fx, fy, fz = force[i, 0], force[i, 1], force[i, 2]
                 C0 = pack(m[i] / fluid.ρ, d * fluid.dx, d * fluid.dy, d * fluid.dz, fx, fy, fz, 0.0)
                 deposit_value(pores, b * size + n, row, wx, wy, wz, C0)
+
+
+@inlined
+def _cell(mesh, origin, row, x, i):
+    """Return where the record of the lowest node of particle i's cell begins in its tile."""
+    g = min(max(truncate(in_block(mesh, origin, load_row(x, i))), 0.0), row - 2.0)
+    return int((lane(g, 0) * row + lane(g, 1)) * row + lane(g, 2)) * LANES
 
 
 @inlined
@@ -123,7 +133,7 @@ def gather_smooth(
     shape, mesh, fluid, chunk, start, corner, above, nodes, scratch, half, x, v, solid, V, p, free,
     dt, h,
 ):  # fmt: skip
-    """As `gather`, with the divergence that the nodes have from `spread` and `average`."""
+    """As `gather`, with the mean divergence of the cell, from `spread` and `average`."""
     row = SIDE + width(shape) - 1
     size = row * row * row * LANES
     for c in prange(len(chunk) - 1):
@@ -138,14 +148,18 @@ def gather_smooth(
                 value = collect_value(tile, n, row, wx, wy, wz)
                 if v is not None:
                     store_row(v, i, axpy(h, quarter(value, 3), load_row(v, i)))
-                _compress(fluid, solid, V, p, free, i, dt * lane(value, 6))
+                strain = dt * tile[_cell(mesh, origin, row, x, i) + 6]
+                _compress(fluid, solid, V, p, free, i, strain)
 
 
 @blockwise
 def spread(
     shape, mesh, first, chunk, start, corner, above, nodes, scratch, half, x, V, tiles,
 ):  # fmt: skip
-    """Put the divergence of the flux at the particles, and their volume, into the tiles."""
+    """Sum the volumes of the particles of each cell, and the divergence of the flux times volume.
+
+    The record of a cell is that of its lowest node.
+    """
     row = SIDE + width(shape) - 1
     size = row * row * row * LANES
     for c in prange(len(chunk) - 1):
@@ -160,6 +174,6 @@ def spread(
             for i in range(start[b], start[b + 1]):
                 n, wx, wy, wz = locate(shape, mesh, origin, half, x, i)
                 _, sx, sy, sz = collect(tile, n, row, wx, wy, wz)
-                d = _divergence(mesh, sx, sy, sz)
-                C0 = scale(V[i], pack(1.0, d, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-                deposit_value(tiles, b * size + n, row, wx, wy, wz, C0)
+                at = b * size + _cell(mesh, origin, row, x, i)
+                tiles[at] += V[i]
+                tiles[at + 1] += V[i] * _divergence(mesh, sx, sy, sz)
