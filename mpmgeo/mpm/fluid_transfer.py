@@ -41,18 +41,49 @@ from mpmgeo.state.grid import SIDE
 LEAST = 0.01  # porosity below which the pores count as no smaller: they cannot close
 
 
-@blockwise
-def scatter(
-    shape, mesh, fluid, first, chunk, start, corner, half, x, m, v, V, p, force, flow, pores,
-):  # fmt: skip
-    """Add mass, momentum, pressure force, drag of the fluid to the tiles; `first` empties them.
+@inlined
+def _cell(mesh, origin, row, x, i):
+    """Return where the record of the lowest node of particle i's cell begins in its tile."""
+    g = min(max(truncate(in_block(mesh, origin, load_row(x, i))), 0.0), row - 2.0)
+    return int((lane(g, 0) * row + lane(g, 1)) * row + lane(g, 2)) * LANES
 
-    `m`, `v`, `p`: mass, velocity, pressure of the fluid; `force`: on the fluid against the solid,
-    None without.
+
+@blockwise
+def sum_cells(shape, mesh, first, chunk, start, corner, x, V, p, free, tiles):
+    """Sum volume and volume times pressure of the particles of each cell; `first` empties the sums.
+
+    Particles that keep their pressure do not count. The record of a cell is that of its lowest
+    node.
     """
     row = SIDE + width(shape) - 1
     size = row * row * row * LANES
     for c in prange(len(chunk) - 1):
+        for b in range(chunk[c], chunk[c + 1]):
+            if first:
+                tiles[b * size : (b + 1) * size] = 0.0
+            origin = block_origin(mesh, corner, b)
+            for i in range(start[b], start[b + 1]):
+                at = b * size + _cell(mesh, origin, row, x, i)
+                volume = V[i] if free is None else V[i] * free[i]
+                tiles[at] += volume
+                tiles[at + 1] += volume * p[i]
+
+
+@blockwise
+def scatter(
+    shape, mesh, fluid, first, chunk, start, corner, above, means, scratch, half, x, m, v, V, p,
+    free, force, flow, pores,
+):  # fmt: skip
+    """Add mass, momentum, pressure force, drag of the fluid to the tiles; `first` empties them.
+
+    `m`, `v`, `p`: mass, velocity, pressure of the fluid; `free` None, or 0 for particles that keep
+    their pressure, the others take those of `means`, the cells' records, unless that is None;
+    `force`: on the fluid against the solid, None without.
+    """
+    row = SIDE + width(shape) - 1
+    size = row * row * row * LANES
+    for c in prange(len(chunk) - 1):
+        tile = scratch[c * size : (c + 1) * size]
         one = pack(1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
         volume = pack(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
         X = pack(0.0, 0.0, 0.0, 0.0, mesh.ix, 0.0, 0.0, 0.0)
@@ -62,27 +93,26 @@ def scatter(
             if first:
                 flow[b * size : (b + 1) * size] = 0.0
                 pores[b * size : (b + 1) * size] = 0.0
+            if start[b] == start[b + 1]:
+                continue
+            if means is not None:
+                copy_tile(means, above, b, row, tile)
             origin = block_origin(mesh, corner, b)
             for i in range(start[b], start[b + 1]):
+                if means is not None:
+                    if free is None or free[i] > 0.0:
+                        p[i] = tile[_cell(mesh, origin, row, x, i) + 6]
                 n, wx, wy, wz = locate(shape, mesh, origin, half, x, i)
                 C0 = axpy(m[i], with_velocity(one, load_row(v, i)), scale(V[i], volume))
                 q = V[i] * p[i]
-                deposit(
-                    flow, b * size + n, row, wx, wy, wz, C0, scale(q, X), scale(q, Y), scale(q, Z)
-                )
+                C1, C2, C3 = scale(q, X), scale(q, Y), scale(q, Z)
+                deposit(flow, b * size + n, row, wx, wy, wz, C0, C1, C2, C3)
                 d = m[i] * m[i] / V[i]
                 fx = fy = fz = 0.0
                 if force is not None:
                     fx, fy, fz = force[i, 0], force[i, 1], force[i, 2]
                 C0 = pack(m[i] / fluid.ρ, d * fluid.dx, d * fluid.dy, d * fluid.dz, fx, fy, fz, 0.0)
                 deposit_value(pores, b * size + n, row, wx, wy, wz, C0)
-
-
-@inlined
-def _cell(mesh, origin, row, x, i):
-    """Return where the record of the lowest node of particle i's cell begins in its tile."""
-    g = min(max(truncate(in_block(mesh, origin, load_row(x, i))), 0.0), row - 2.0)
-    return int((lane(g, 0) * row + lane(g, 1)) * row + lane(g, 2)) * LANES
 
 
 @inlined
@@ -126,54 +156,3 @@ def gather(
                     store_row(v, i, axpy(h, quarter(value, 3), load_row(v, i)))
                 strain = dt * _divergence(mesh, sx, sy, sz)
                 _compress(fluid, solid, V, p, free, i, strain)
-
-
-@blockwise
-def gather_smooth(
-    shape, mesh, fluid, chunk, start, corner, above, nodes, scratch, half, x, v, solid, V, p, free,
-    dt, h,
-):  # fmt: skip
-    """As `gather`, with the mean divergence of the cell, from `spread` and `average`."""
-    row = SIDE + width(shape) - 1
-    size = row * row * row * LANES
-    for c in prange(len(chunk) - 1):
-        tile = scratch[c * size : (c + 1) * size]
-        for b in range(chunk[c], chunk[c + 1]):
-            if start[b] == start[b + 1]:
-                continue
-            copy_tile(nodes, above, b, row, tile)
-            origin = block_origin(mesh, corner, b)
-            for i in range(start[b], start[b + 1]):
-                n, wx, wy, wz = locate(shape, mesh, origin, half, x, i)
-                value = collect_value(tile, n, row, wx, wy, wz)
-                if v is not None:
-                    store_row(v, i, axpy(h, quarter(value, 3), load_row(v, i)))
-                strain = dt * tile[_cell(mesh, origin, row, x, i) + 6]
-                _compress(fluid, solid, V, p, free, i, strain)
-
-
-@blockwise
-def spread(
-    shape, mesh, first, chunk, start, corner, above, nodes, scratch, half, x, V, tiles,
-):  # fmt: skip
-    """Sum the volumes of the particles of each cell, and the divergence of the flux times volume.
-
-    The record of a cell is that of its lowest node.
-    """
-    row = SIDE + width(shape) - 1
-    size = row * row * row * LANES
-    for c in prange(len(chunk) - 1):
-        tile = scratch[c * size : (c + 1) * size]
-        for b in range(chunk[c], chunk[c + 1]):
-            if first:
-                tiles[b * size : (b + 1) * size] = 0.0
-            if start[b] == start[b + 1]:
-                continue
-            copy_tile(nodes, above, b, row, tile)
-            origin = block_origin(mesh, corner, b)
-            for i in range(start[b], start[b + 1]):
-                n, wx, wy, wz = locate(shape, mesh, origin, half, x, i)
-                _, sx, sy, sz = collect(tile, n, row, wx, wy, wz)
-                at = b * size + _cell(mesh, origin, row, x, i)
-                tiles[at] += V[i]
-                tiles[at + 1] += V[i] * _divergence(mesh, sx, sy, sz)

@@ -223,22 +223,24 @@ class Solver:
             self.point_loads.apply(g)
         arguments = (
             *(self.planes, motion.before, motion.acceleration, motion.drives),
-            *(self.local, self.delayed, *self._driven("before", "after"), h, self.cutoff),
+            *(self.local, self.delayed, *self.driven("before", "after"), h, self.cutoff),
             *(g.chunk, g.active_corner, g.below, g.tiles, g.scratch, g.nodes),
         )
-        if any((self.steps + 1) % every == 0 for every in self.measured):
-            self._measure(arguments)
+        self.measure(reactions.add_forces, arguments)
         self.call(grid_update.update_momentum, *arguments)
         self.clock.lap("grid update")
 
-    def _measure(self, arguments):
+    def measure(self, kernel, arguments):
+        """Sum the forces of planes and tools with a kernel if this step is one of those wanted."""
+        if not any((self.steps + 1) % every == 0 for every in self.measured):
+            return
         tools = 0 if self.tools is None else len(self.tools.given)
         forces = np.zeros((len(self.grid.active), len(PLANES) + tools, 3))
-        self.call(reactions.add_forces, *arguments, forces)
+        self.call(kernel, *arguments, forces)
         self.reactions = forces.sum(axis=0)
         self.clock.lap("reactions")
 
-    def _driven(self, *names):
+    def driven(self, *names):
         """Return the nodes' tools, their components and velocities for kernels; None without."""
         tools = self.tools
         if tools is None:
@@ -251,7 +253,7 @@ class Solver:
         velocity = self.motion.after if base == "after" else self.motion.before
         self.call(
             grid_update.update_velocity,
-            *(self.planes, velocity, self.motion.drives, *self._driven(base)),
+            *(self.planes, velocity, self.motion.drives, *self.driven(base)),
             *(g.chunk, g.active_corner, g.below, g.tiles, g.scratch, g.nodes),
         )
         self.clock.lap("grid update")

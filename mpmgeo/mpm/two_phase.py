@@ -45,25 +45,41 @@ class PoreFluid:
         """Fill the tiles with the fluid's mass, momentum, pressure force and drag."""
         grid = s.grid
         self.fit(grid)
+        if self.smooth:
+            self._average(s)
         for number, p in enumerate(s.sets):
             s.call(
                 fluid_transfer.scatter,
-                *(p.fluid, number == 0, p.chunk, p.start, grid.corner, p.half, p.x, p.mf, p.vf),
-                *(p.V, p.pf, p.pull, self.flow, self.pores),
+                *(p.fluid, number == 0, p.chunk, p.start, grid.corner, grid.above),
+                *(self.flux if self.smooth else None, grid.scratch, p.half, p.x, p.mf, p.vf),
+                *(p.V, p.pf, p.free, p.pull, self.flow, self.pores),
             )
         s.clock.lap("fluid: scatter")
+
+    def _average(self, s):
+        """Make the records of the cells of the mean pressures of their particles."""
+        grid = s.grid
+        for number, p in enumerate(s.sets):
+            s.call(
+                fluid_transfer.sum_cells,
+                *(number == 0, p.chunk, p.start, grid.corner, p.x, p.V, p.pf, p.free, self.flow),
+            )
+        s.call(fluid_grid.average, grid.chunk, grid.below, self.flow, self.scratch, self.flux)
+        s.clock.lap("fluid: means of cells")
 
     def update_momentum(self, s, h):
         """Integrate the nodal momenta of both phases over h."""
         grid, motion = s.grid, s.motion
         if s.point_loads is not None:
             s.point_loads.apply(grid)
-        s.call(
-            fluid_grid.update_momentum,
+        arguments = (
             *(s.planes, self.walls, motion.before, motion.acceleration, motion.drives),
-            *(s.local, s.gravity, h, s.cutoff, grid.chunk, grid.active_corner, grid.below),
-            *(grid.tiles, self.flow, self.pores, self.scratch, grid.nodes, self.flux),
+            *(s.local, s.gravity, *s.driven("before", "after"), h, s.cutoff, grid.chunk),
+            *(grid.active_corner, grid.below, grid.tiles, self.flow, self.pores, self.scratch),
+            *(grid.nodes, self.flux),
         )
+        s.measure(fluid_grid.add_forces, arguments)
+        s.call(fluid_grid.update_momentum, *arguments)
         s.clock.lap("grid update")
 
     def remap(self, s, h):
@@ -82,7 +98,7 @@ class PoreFluid:
         grid, motion = s.grid, s.motion
         s.call(
             fluid_grid.update_velocity,
-            *(s.planes, self.walls, motion.after, motion.drives),
+            *(s.planes, self.walls, motion.after, motion.drives, *s.driven("after")),
             *(grid.chunk, grid.active_corner, grid.below, grid.tiles, self.flow, self.scratch),
             *(grid.nodes, self.flux),
         )
@@ -91,26 +107,11 @@ class PoreFluid:
     def gather(self, s, h):
         """Update the pressures; change the fluid's velocities unless h is None."""
         grid = s.grid
-        if self.smooth:
-            self._smooth(s)
-        kernel = fluid_transfer.gather_smooth if self.smooth else fluid_transfer.gather
         for p in s.sets:
             s.call(
-                kernel,
+                fluid_transfer.gather,
                 *(p.fluid, p.chunk, p.start, grid.corner, grid.above, self.flux, grid.scratch),
                 *(p.half, p.x, None if h is None else p.vf, p.m, p.V, p.pf, p.free),
                 *(s.time_step, 0.0 if h is None else h),
             )
         s.clock.lap("fluid: gather")
-
-    def _smooth(self, s):
-        grid = s.grid
-        for number, p in enumerate(s.sets):
-            s.call(
-                fluid_transfer.spread,
-                *(number == 0, p.chunk, p.start, grid.corner, grid.above, self.flux, grid.scratch),
-                *(p.half, p.x, p.V, self.flow),
-            )
-        kernel = fluid_grid.average.serial if s.small else fluid_grid.average
-        kernel(s.shape, grid.chunk, grid.below, self.flow, self.scratch, self.flux)
-        s.clock.lap("fluid: smoothing")
