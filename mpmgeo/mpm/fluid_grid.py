@@ -48,16 +48,15 @@ def _tooled(given, before, after, t, axis, r, v, a, g, u, b, f, q, h):
     v, a, g: velocity and acceleration of the solid and whether it is free; u, b, f: those of the
     fluid, which moves with a tool where a wall would hold it; q: the step of velocities.
     """
-    if given is not None:
-        if t >= 0 and given[t, axis] > 0.0:
-            m, momentum, tool = lane(r, 0), lane(r, 1 + axis), lane(r, 7)
-            V, others = after[t, axis], m - tool
-            v = before[t, axis]
-            if others > ROUND_OFF * m:
-                v = (momentum - tool * v) / others
-            b = (V - u) / h if f == 0.0 else b
-            a = (V - v) / h
-            return v, a, 0.0, b, h, (m * V - momentum) / h - m * a
+    if given is not None and t >= 0 and given[t, axis] > 0.0:
+        m, momentum, tool = lane(r, 0), lane(r, 1 + axis), lane(r, 7)
+        V, others = after[t, axis], m - tool
+        v = before[t, axis]
+        if others > ROUND_OFF * m:
+            v = (momentum - tool * v) / others
+        b = (V - u) / h if f == 0.0 else b
+        a = (V - v) / h
+        return v, a, 0.0, b, h, (m * V - momentum) / h - m * a
     return v, a, g, b, q, 0.0
 
 
@@ -192,12 +191,11 @@ def add_forces(
 
 @inlined
 def _count(planes, walls, mesh, i, j, k, axis, given, t, of_solid, of_fluid, out, b):
-    """Add the forces on both phases of a node to those of the planes or the tool that exert them."""
+    """Add the forces on both phases of a node to those of the planes or tool that exert them."""
     plane, wall = holder(planes, mesh, i, j, k, axis), holder(walls, mesh, i, j, k, axis)
-    if given is not None:
-        if t >= 0 and given[t, axis] > 0.0:
-            plane = 6 + t
-            wall = 6 + t if wall >= 0 else wall
+    if given is not None and t >= 0 and given[t, axis] > 0.0:
+        plane = 6 + t
+        wall = 6 + t if wall >= 0 else wall
     if plane >= 0:
         out[b, plane, axis] += of_solid
     if wall >= 0:
@@ -207,9 +205,8 @@ def _count(planes, walls, mesh, i, j, k, axis, given, t, of_solid, of_fluid, out
 @inlined
 def _prescribed(given, after, t, axis, v, u, f):
     """Return the velocities of solid and fluid along an axis that tool t may prescribe."""
-    if given is not None:
-        if t >= 0 and given[t, axis] > 0.0:
-            return after[t, axis], after[t, axis] if f == 0.0 else u
+    if given is not None and t >= 0 and given[t, axis] > 0.0:
+        return after[t, axis], after[t, axis] if f == 0.0 else u
     return v, u
 
 

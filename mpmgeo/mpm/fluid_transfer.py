@@ -15,7 +15,6 @@ from numba import prange
 from mpmgeo.mpm.tile import (
     block_origin,
     collect,
-    collect_value,
     copy_tile,
     deposit,
     deposit_value,
@@ -99,9 +98,8 @@ def scatter(
                 copy_tile(means, above, b, row, tile)
             origin = block_origin(mesh, corner, b)
             for i in range(start[b], start[b + 1]):
-                if means is not None:
-                    if free is None or free[i] > 0.0:
-                        p[i] = tile[_cell(mesh, origin, row, x, i) + 6]
+                if means is not None and (free is None or free[i] > 0.0):
+                    p[i] = tile[_cell(mesh, origin, row, x, i) + 6]
                 n, wx, wy, wz = locate(shape, mesh, origin, half, x, i)
                 C0 = axpy(m[i], with_velocity(one, load_row(v, i)), scale(V[i], volume))
                 q = V[i] * p[i]
