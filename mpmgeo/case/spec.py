@@ -111,9 +111,14 @@ class Results:
     def particle_fields(self) -> tuple[str, ...]:
         """Return the keys of the particle fields to write, in the order of the files."""
         words = self.material_point_results
-        further = () if "none" in words else (*FURTHER_FIELDS, *FLUID_FIELDS)
-        named = tuple(key for key in further if key in words)
+        named = () if "none" in words else tuple(key for key in FURTHER_FIELDS if key in words)
         return _chosen(words, PARTICLE_FIELDS, without=()) + named
+
+    @property
+    def fluid_fields(self) -> tuple[str, ...]:
+        """Return the keys of the fields of the pore fluid to write, if there is one."""
+        words = self.material_point_results
+        return () if "none" in words else tuple(key for key in FLUID_FIELDS if key in words)
 
     @property
     def needed_fields(self) -> set[str]:

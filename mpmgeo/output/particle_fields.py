@@ -55,6 +55,10 @@ def field_of(solver, s, key, at=slice(None)):
         return getattr(s, _ARRAYS[key])[at]
     if key in _VALUES:
         return _VALUES[key](solver, s, at)
+    if key in _OF_THE_FLUID:
+        if s.fluid is None:
+            raise KeyError(f"{key}: exists with two phases only")
+        return _OF_THE_FLUID[key](s, at)
     if key in PARTICLE_FIELDS:
         return np.zeros((len(s.row[at]), *_shape(key)))
     raise KeyError(key)
@@ -97,15 +101,6 @@ def _pressure(solver, s, at):
 def _mass(solver, s, at):
     """Return the masses of both phases."""
     return s.m[at] if s.fluid is None else s.m[at] + s.mf[at]
-
-
-def _of_the_fluid(value):
-    def field(solver, s, at):
-        if s.fluid is None:
-            raise KeyError("fields of the fluid exist with two phases only")
-        return value(s, at)
-
-    return field
 
 
 def _plastic_strain(solver, s, at):
@@ -157,7 +152,9 @@ _VALUES = {
     "von_mises_stress": lambda solver, s, at: np.sqrt(1.5) * _size_of_deviator(s.stress[at]),
     "mass": _mass,
     "density": lambda solver, s, at: _mass(solver, s, at) / s.V[at],
-    "mass_fluid": _of_the_fluid(lambda s, at: s.mf[at]),
-    "velocity_fluid": _of_the_fluid(lambda s, at: s.vf[at]),
-    "porosity": _of_the_fluid(lambda s, at: 1 - s.m[at] / (s.fluid.ρs * s.V[at])),
+}
+_OF_THE_FLUID = {
+    "mass_fluid": lambda s, at: s.mf[at],
+    "velocity_fluid": lambda s, at: s.vf[at],
+    "porosity": lambda s, at: 1 - s.m[at] / (s.fluid.ρs * s.V[at]),
 }

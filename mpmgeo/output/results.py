@@ -1,7 +1,6 @@
 """Write the results of a run: particle files, grid files, their collections, kinetic energy."""
 
 from mpmgeo.output.energy import EnergySeries, earlier_rows
-from mpmgeo.output.fields import FLUID_FIELDS
 from mpmgeo.output.grid_fields import grid_arrays
 from mpmgeo.output.mesh_cells import all_cells, block_cells
 from mpmgeo.output.particle_fields import particle_arrays
@@ -18,8 +17,8 @@ class ResultFiles:
 
     def __init__(self, folder, case, every):
         self.results = case.results
-        absent = () if case.n_phases == 2 else FLUID_FIELDS
-        self.fields = [key for key in case.results.particle_fields if key not in absent]
+        of_fluid = case.results.fluid_fields if case.n_phases == 2 else ()
+        self.fields = case.results.particle_fields + of_fluid
         self.mesh = case.mesh
         self.every = every
         self.folder = folder
