@@ -192,7 +192,7 @@ class Case:
         default=9.81,
     )
     pore_pressure_smoothing: bool = parameter(
-        "Whether nodes average the volume strain that changes pore pressures; with two phases",
+        "Whether the particles of a cell share their mean pore pressure; with two phases",
         default=True,
     )
     n_threads: int | None = parameter(

@@ -14,8 +14,8 @@ from mpmgeo.state.grid import CHUNKS, NODES, room
 class PoreFluid:
     """The fluid in the pores of all particles.
 
-    `walls`: the planes for the fluid; `smooth`: whether nodes average the divergence that presses
-    it.
+    `walls`: the planes for the fluid; `smooth`: whether the particles of a cell share its mean
+    pressure.
     """
 
     def __init__(self, walls: Planes, smooth: bool):
