@@ -100,8 +100,7 @@ def layers(scheme, smooth=True, **keys):
     simulation = simulate(case)
     depth = height - simulation.field("position")[:, 2]
     pressure = 1000 * g * depth
-    for s in simulation.solver.sets:
-        s.pf[:] = pressure[s.row]
+    simulation.assign("pressure", pressure)
     light, heavy = (0.5 * 2600 + 0.5 * 1000) * g, (0.7 * 2600 + 0.3 * 1000) * g
     total = np.where(depth < middle, light * depth, light * middle + heavy * (depth - middle))
     stress = np.zeros((len(depth), 6))
@@ -132,6 +131,22 @@ def test_a_base_that_does_not_move_changes_nothing(scheme, tmp_path):
     simulation, _ = layers(scheme, earthquake={"active": True, "file": str(record)})
     simulation.run()
     assert np.abs(simulation.field("velocity_fluid")).max() < 1e-13
+
+
+@SCHEMES
+def test_a_base_takes_both_phases_along(scheme, tmp_path):
+    """It starts with a jolt; a little later solid and water move with it."""
+    record = tmp_path / "push.csv"
+    record.write_text("t,x,y,z\n0,0,0,1\n9,0,0,1\n")
+    keys = {"earthquake": {"active": True, "file": str(record)}}
+    simulation, _ = layers(scheme, damping={"type": "local", "value": 0.2}, **keys)
+    simulation.run()
+    base = simulation.time - simulation.time_step / 2
+    low = simulation.field("position")[:, 2] < 0.25
+    for phase in "velocity", "velocity_fluid":
+        assert simulation.field(phase)[low, 2] == pytest.approx(base, rel=0.1)
+    relative = simulation.field("velocity_fluid") - simulation.field("velocity")
+    assert np.abs(relative[low]).max() < 0.01 * base
 
 
 def seeping(walls, **keys):

@@ -183,9 +183,8 @@ def test_steps_are_those_of_the_twin(name):
     count = simulation.solver.count
     simulation.assign("velocity", random.uniform(-3, 3, (count, 3)))
     simulation.assign("stress", random.uniform(-1e4, 1e4, (count, 6)))
-    for s in simulation.solver.sets:
-        s.vf[:] = random.uniform(-3, 3, s.vf.shape)
-        s.pf[:] = np.where(s.free > 0, random.uniform(0, 1e4, s.pf.shape), s.pf)
+    simulation.assign("velocity_fluid", random.uniform(-3, 3, (count, 3)))
+    simulation.assign("pressure", random.uniform(0, 1e4, count))
     twin = Twin(simulation.solver, case.get("pore_pressure_smoothing", True))
     for _ in range(STEPS):
         simulation.step()
