@@ -9,6 +9,12 @@ TIME_STEP = 2e-4  # s, 0.44 of the time in which a wave crosses a cell
 SPEED = CELL / (20 * TIME_STEP)  # m/s: one cell in 20 steps
 MARGIN = 8  # cells between a block and the lower planes, a multiple of the grid's blocks
 SOLID = {"type": "elastic", "id": 1, "density": 2500.0, "young": 1e8, "poisson": 0.25}
+WATER = {
+    "density_fluid": 1000.0,
+    "porosity": 0.4,
+    "bulk_fluid": 1e7,  # Pa, so soft that the time step suits it too
+    "hydraulic_conductivity": [1e-4, 1e-4, 1e-4],
+}
 PLANES = ("X0", "Y0", "Z0", "Xn", "Yn", "Zn")
 
 
@@ -44,6 +50,11 @@ def standing(side, **keys):
     cells = [side + 2 * MARGIN, side + 2 * MARGIN, side + MARGIN]
     keys = {"gravity": [0.0, 0.0, -9.81], "planes": {"Z0": "fixed"}} | keys
     return _block(side, [MARGIN, MARGIN, 0], cells, **keys)
+
+
+def saturated(side, **keys):
+    """Return the standing block with water in its pores."""
+    return standing(side, n_phases=2, materials=[SOLID | WATER], **keys)
 
 
 def floating(side, **keys):

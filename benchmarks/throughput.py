@@ -9,7 +9,16 @@ import tracemalloc
 
 from contest import Contest, Table
 from peer import Peer
-from scenes import SPEED, floating, lost_in_space, restless, side_of, simulation, standing
+from scenes import (
+    SPEED,
+    floating,
+    lost_in_space,
+    restless,
+    saturated,
+    side_of,
+    simulation,
+    standing,
+)
 
 from mpmgeo.run.progress import peak_memory
 from mpmgeo.run.watch import Guard
@@ -56,6 +65,22 @@ def compare_with_peer(table, contest):
     table.add("yardstick, 2 threads / 1 thread", "", *gain)
     ours = contest.ratio(TWO, "USL GIMP")
     table.add("gain of 2 threads / the yardstick's", "", ours[0] / gain[0], bar="≥ 0.95")
+
+
+def compare_phases(table, side, rounds):
+    """Time two phases beside one."""
+    contest = Contest(8 * side**3)
+    contest.add("one phase", simulation(standing(side)).solver.step)
+    for name, keys in {
+        "two phases": {},
+        "two phases, MUSL": {"stress_scheme_update": "MUSL"},
+        "two phases, pressures not shared": {"pore_pressure_smoothing": False},
+    }.items():
+        contest.add(name, simulation(saturated(side, **keys)).solver.step)
+    contest.run(rounds)
+    table.add("two phases", "million particle-steps/s", *contest.speed("two phases"), bar="≥ 3")
+    for name in list(contest.entries)[1:]:
+        table.add(f"{name} / one phase", "", *contest.ratio(name, "one phase"))
 
 
 def compare_motions(table, side, rounds):
@@ -114,6 +139,7 @@ def main():
     table = Table("throughput")
     table.add("particles", "", 8 * side**3)
     compare_schemes(table, side, arguments.rounds, arguments.yardstick)
+    compare_phases(table, side, arguments.rounds)
     compare_motions(table, side, arguments.rounds)
     weigh(table, side)
     table.write()

@@ -246,14 +246,16 @@ class Simulation:
     def assign(self, key, values):
         """Set "velocity" (n, 3) [m/s] or "stress" (n, 6) [Pa] of all particles, in row order.
 
-        Raises KeyError for another key, ValueError for another shape.
+        With two phases also "velocity_fluid" (n, 3) and "pressure" (n,) [Pa]. Raises KeyError for
+        another key, ValueError for another shape.
         """
-        name, columns = {"velocity": ("v", 3), "stress": ("stress", 6)}[key]
-        values = np.asarray(values, float)
-        if values.shape != (self.solver.count, columns):
-            raise ValueError(
-                f"{key} has the shape {(self.solver.count, columns)}, not {values.shape}"
-            )
+        known = {"velocity": ("v", (3,)), "stress": ("stress", (6,))}
+        if self.solver.fluid is not None:
+            known |= {"velocity_fluid": ("vf", (3,)), "pressure": ("pf", ())}
+        name, shape = known[key]
+        values, shape = np.asarray(values, float), (self.solver.count, *shape)
+        if values.shape != shape:
+            raise ValueError(f"{key} has the shape {shape}, not {values.shape}")
         for s in self.solver.sets:
             getattr(s, name)[:] = values[s.row]
 

@@ -43,13 +43,6 @@ OBSOLETE = {
 """(place, key) of obsolete keys that are ignored with a warning → the key to use."""
 
 IGNORED = {
-    ("mesh",): {"boundary_conditions_fluid": "Conditions on the fluid, read with two phases only"},
-    ("materials", "*"): {
-        "density_fluid": "Density of the fluid, read with two phases only",
-        "porosity": "Share of the pores, read with two phases only",
-        "bulk_fluid": "Bulk modulus of the fluid, read with two phases only",
-        "hydraulic_conductivity": "Hydraulic conductivity, read with two phases only",
-    },
     ("body", "*"): {"id": "Ignored: bodies are numbered in order"},
     ("damping",): {"value": "Read with local damping only"},
 }

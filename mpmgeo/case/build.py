@@ -9,12 +9,15 @@ from mpmgeo.boundaries.base_motion import BaseMotion, BaseMotionAsMPMGeomechanic
 from mpmgeo.boundaries.planes import Planes
 from mpmgeo.case.bindings import bind_pressure, bind_tools
 from mpmgeo.case.populate import populate
+from mpmgeo.case.saturate import saturate
 from mpmgeo.damping import KineticDamping, LocalDamping
 from mpmgeo.loads.point import GHOSTS
+from mpmgeo.materials import saturation
 from mpmgeo.materials.rotation import ROTATIONS
 from mpmgeo.mpm.point_loads import PointLoads
-from mpmgeo.mpm.schemes import SCHEMES
+from mpmgeo.mpm.schemes import SCHEMES, SCHEMES_OF_TWO_PHASES
 from mpmgeo.mpm.solver import Solver
+from mpmgeo.mpm.two_phase import PoreFluid
 from mpmgeo.output.particle_fields import WITH_STRAIN
 from mpmgeo.shapes import SHAPES
 from mpmgeo.state.grid import Grid, Mesh
@@ -40,15 +43,18 @@ def build(case):
     delayed = legacy and case.stress_scheme_update != "USF"
     tools, tool = bind_tools(case, population, velocity)
     sets = _sets(case, population, velocity, law, tool, notes)
+    if case.n_phases == 2:
+        saturate(case, sets, population, law)
     if case.load_state:
         _load_stress(case, sets, len(population.position))
+    schemes = SCHEMES if case.n_phases == 1 else SCHEMES_OF_TWO_PHASES
     lightest = min((float(s.m.min()) for s in sets), default=0.0)
     solver = Solver(
         grid=Grid(mesh, shape.width),
         sets=sets,
         population=population,
         shape=shape,
-        scheme=SCHEMES[case.stress_scheme_update],
+        scheme=schemes[case.stress_scheme_update],
         planes=Planes.of(case.mesh.boundary_conditions),
         time_step=time_step(case, velocity),
         gravity=case.gravity,
@@ -60,6 +66,7 @@ def build(case):
         settles=isinstance(case.damping, KineticDamping),
         cutoff=0.0 if legacy else TOUCH**shape.edge * lightest,
         tools=tools,
+        fluid=_pore_fluid(case),
         measured=_measured(case),
     )
     return solver, notes
@@ -69,7 +76,7 @@ def critical_time_step(case, velocity):
     """Return the time [s] in which a wave crosses a cell, particles moving at `velocity` (n, 3).
 
     The shortest of the materials in use, in the smallest cell size; for MPM-Geomechanics the mean
-    cell size over the largest wave speed of all materials.
+    cell size over the largest wave speed of all materials. With two phases the pore fluid counts.
     """
     cell = case.mesh.cells_dimension
     if case.compatibility is not None:
@@ -77,7 +84,10 @@ def critical_time_step(case, velocity):
     used = {number for body in case.body if body.active for number in body.materials}
     fastest = np.sqrt((velocity**2).sum(axis=1).max(initial=0.0))
     laws = [law for law in case.materials if law.id in used]
-    return min((law.critical_time_step(min(cell), fastest) for law in laws), default=inf)
+    if case.n_phases == 1:
+        return min((law.critical_time_step(min(cell), fastest) for law in laws), default=inf)
+    steps = (saturation.critical_time_step(law, min(cell), fastest) for law in laws)
+    return min(steps, default=inf)
 
 
 def time_step(case, velocity):
@@ -85,6 +95,14 @@ def time_step(case, velocity):
     if case.time_step:
         return case.time_step
     return case.critical_time_step_multiplier * critical_time_step(case, velocity)
+
+
+def _pore_fluid(case):
+    """Return the fluid in the pores of a case of two phases, None with one."""
+    if case.n_phases == 1:
+        return None
+    walls = Planes.of(case.mesh.boundary_conditions_fluid)
+    return PoreFluid(walls, case.pore_pressure_smoothing)
 
 
 def _measured(case):

@@ -8,6 +8,7 @@ from mpmgeo.case.aliases import NAMED, places
 from mpmgeo.case.report import shown
 from mpmgeo.case.spec import Case
 from mpmgeo.loads import OF_THE_FLUID
+from mpmgeo.materials import saturation
 from mpmgeo.output.fields import FLUID_FIELDS, TERRAIN_FIELDS
 
 MOST_STEPS = 1e12
@@ -17,6 +18,13 @@ SHARE = "critical_time_step_multiplier"
 
 FROM_FILES = (("prescribed_velocity",), ("hydro_mechanical_coupling",))
 """Places of parts with `complaints` about their files."""
+
+ONE_PHASE_ONLY = (
+    ("stress_scheme_update", "USF", '"USF" is for one phase; accepted with two: "USL", "MUSL"'),
+    ("compatibility", None, "two phases have no earlier form that is worth keeping; leave it out"),
+    ("hydro_mechanical_coupling", None, "pressures from a file and two phases exclude each other"),
+)
+"""Top-level keys and values (None: any) that do not go with two phases, and why."""
 
 SLACK = 1e-9
 """Share of a cell by which a position may lie outside the mesh through round-off."""
@@ -32,6 +40,8 @@ def check(tree, parts, report):
     _check_files(parts, report)
     _check_names(tree, report)
     _check_base(parts, report)
+    if tree.get("n_phases") == 2:
+        _check_two_phases(tree, report)
     _note_idle(tree, report)
 
 
@@ -119,7 +129,14 @@ def _automatic_step(tree, parts, report):
     laws = [parts.get(path) for path, _ in places(tree, ("materials", "*"))]
     if mesh is None or None in laws or (SHARE,) in report.errors:
         return None
-    steps = [law.critical_time_step(min(mesh.cells_dimension), 0.0) for law in laws]
+    two = tree.get("n_phases") == 2
+    if two and any(getattr(law, key) is None for law in laws for key in saturation.KEYS):
+        return None
+    cell = min(mesh.cells_dimension)
+    if two:
+        steps = [saturation.critical_time_step(law, cell, 0.0) for law in laws]
+    else:
+        steps = [law.critical_time_step(cell, 0.0) for law in laws]
     return share * min(steps) if steps else None
 
 
@@ -167,15 +184,27 @@ def _check_base(parts, report):
             taken[plane] = path
 
 
+def _check_two_phases(tree, report):
+    """Report what two phases lack, and what does not go with them."""
+    for path, law in places(tree, ("materials", "*")):
+        for key in saturation.KEYS:
+            if key not in law:
+                report.error((*path, key), "missing; needed with two phases")
+    for key, value, message in ONE_PHASE_ONLY:
+        if key in tree and value in (None, tree[key]):
+            report.error((key,), message)
+
+
 def _note_idle(tree, report):
     """Note what only acts together with parts that the case does not have."""
-    for key in OF_THE_FLUID:
+    two = tree.get("n_phases") == 2
+    for key in () if two else OF_THE_FLUID:
         if tree.get(key):
             report.note((key,), "has no effect with one phase")
     results = tree.get("results")
     results = results if isinstance(results, dict) else {}
     for key, fields, why in (
-        ("material_point_results", FLUID_FIELDS, "exists with two phases only"),
+        ("material_point_results", () if two else FLUID_FIELDS, "exists with two phases only"),
         ("stl_contact_mesh", TERRAIN_FIELDS, "exists with a terrain only"),
     ):
         words = results.get(key)

@@ -13,6 +13,8 @@ SIGNIFICANT = 0.99
 VALUES_PER_PERIOD = 4
 """Values of a record, and time steps, that a wave needs not to be lost between them."""
 
+BOXES_OF_THE_FLUID = ("initial_pressure_box", "prescribed_pressure_box", "pressure_force_box")
+
 REACH = 1.5
 """Cells between a particle and the nodes that it still carries mass to."""
 
@@ -59,9 +61,10 @@ def _empty_bodies(case, body_of_particle) -> Iterator[str]:
 
 def _idle_loads(case, position) -> Iterator[str]:
     cell = np.array(case.mesh.cells_dimension)
-    for number, load in enumerate(case.load_distributed_box, start=1):
-        if not load.contains(position).any():
-            yield f"load_distributed_box, entry {number}: no particle in the box; nothing happens"
+    for key in ("load_distributed_box", *(BOXES_OF_THE_FLUID if case.n_phases == 2 else ())):
+        for number, load in enumerate(getattr(case, key), start=1):
+            if not load.contains(position).any():
+                yield f"{key}, entry {number}: no particle in the box; nothing happens"
     for number, load in enumerate(case.nodal_point_load, start=1):
         distance = np.abs(position - load.position) / cell
         if not (distance < REACH).all(axis=1).any():

@@ -3,6 +3,7 @@
 from typing import NamedTuple
 
 from mpmgeo.case.aliases import places
+from mpmgeo.materials.saturation import KEYS
 
 
 def _switch(key):
@@ -21,7 +22,6 @@ class Unsupported(NamedTuple):
 
 
 UNSUPPORTED = {
-    ("n_phases",): Unsupported("two phases", (2,)),
     ("terrain_contact", "active"): Unsupported("contact with a terrain"),
 }
 
@@ -32,6 +32,10 @@ FROM_OUTSIDE = ("particles", "particles_list", "particles_from_file", "gmsh")
 
 SWITCHES = {"earthquake": "active", "hydro_mechanical_coupling": "enabled"}
 """Top-level keys of parts that a key of their own switches on."""
+
+
+OF_TWO_PHASES = {("mesh",): ("boundary_conditions_fluid",), ("materials", "*"): KEYS}
+"""Place → keys that are not read with one phase, whatever their values."""
 
 
 def drop_inactive(tree, report):
@@ -50,6 +54,11 @@ def drop_inactive(tree, report):
         kept = [index for index in range(len(bodies)) if index not in idle]
         tree["body"] = [bodies[index] for index in kept]
         report.written |= {("body", new): old for new, old in enumerate(kept)}
+    if tree.get("n_phases") != 2:
+        for place, keys in OF_TWO_PHASES.items():
+            for _, part in places(tree, place):
+                for key in keys:
+                    part.pop(key, None)
     for key, switch in SWITCHES.items():
         part = tree.get(key)
         if isinstance(part, dict) and part.get(switch, False) is False:

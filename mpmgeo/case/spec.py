@@ -59,6 +59,9 @@ class Mesh:
     boundary_conditions: BoundaryConditions = parameter(
         "Conditions on the six bounding planes", default=BoundaryConditions()
     )
+    boundary_conditions_fluid: BoundaryConditions = parameter(
+        "Conditions of the planes on the pore fluid; with two phases", default=BoundaryConditions()
+    )
 
     @property
     def upper(self) -> Vector:
@@ -110,6 +113,12 @@ class Results:
         words = self.material_point_results
         named = () if "none" in words else tuple(key for key in FURTHER_FIELDS if key in words)
         return _chosen(words, PARTICLE_FIELDS, without=()) + named
+
+    @property
+    def fluid_fields(self) -> tuple[str, ...]:
+        """Return the keys of the fields of the pore fluid to write, if there is one."""
+        words = self.material_point_results
+        return () if "none" in words else tuple(key for key in FLUID_FIELDS if key in words)
 
     @property
     def needed_fields(self) -> set[str]:
@@ -171,7 +180,21 @@ class Case:
     shape_function: str = parameter(
         "Interpolation between particles and grid", choices=tuple(SHAPES), default="GIMP"
     )
-    n_phases: int = parameter("Number of phases", choices=(1,), default=1)
+    n_phases: int = parameter(
+        "Number of phases: the solid alone, or with a fluid in its pores",
+        choices=(1, 2),
+        default=1,
+    )
+    conductivity_gravity: float = parameter(
+        "Acceleration in the unit weight of the fluid that hydraulic conductivity refers to",
+        unit="m/s²",
+        above=0,
+        default=9.81,
+    )
+    pore_pressure_smoothing: bool = parameter(
+        "Whether the particles of a cell share their mean pore pressure; with two phases",
+        default=True,
+    )
     n_threads: int | None = parameter(
         "Number of threads; absent or 0: all processors", minimum=0, default=None
     )

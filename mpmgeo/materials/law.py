@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from mpmgeo.materials.rotation import objective_rate
 from mpmgeo.numerics.dispatch import generic
-from mpmgeo.parameters import parameter
+from mpmgeo.parameters import Vector, parameter
 
 
 @dataclass(frozen=True)
@@ -12,8 +12,25 @@ class Law:
     """A material; laws add their parameters, `symbols` and `sound_speed()`."""
 
     id: int = parameter("Number by which bodies refer to the material")
-    density: float = parameter("Initial density", unit="kg/m³", above=0)
+    density: float = parameter(
+        "Initial density; with two phases that of the grains", unit="kg/m³", above=0
+    )
     objective_rate: str = objective_rate("none")
+    density_fluid: float | None = parameter(
+        "Density of the pore fluid; required with two phases", unit="kg/m³", above=0, default=None
+    )
+    porosity: float | None = parameter(
+        "Initial share of the pores; required with two phases", above=0, below=1, default=None
+    )
+    bulk_fluid: float | None = parameter(
+        "Bulk modulus of the pore fluid; required with two phases", unit="Pa", above=0, default=None
+    )
+    hydraulic_conductivity: Vector | None = parameter(
+        "Hydraulic conductivity along x, y, z; required with two phases",
+        unit="m/s",
+        above=0,
+        default=None,
+    )
 
     @property
     def symbols_as_mpm_geomechanics(self):

@@ -46,7 +46,7 @@ def sum_tiles(tiles, below, a, row, reach, out, first):
 
 
 @inlined
-def _damped(α, ax, ay, az, vx, vy, vz):
+def damped(α, ax, ay, az, vx, vy, vz):
     """Return the acceleration less a share α of its size, against the velocity."""
     speed = (vx * vx + vy * vy + vz * vz) ** 0.5
     if speed < 1e-300:
@@ -82,7 +82,7 @@ def integrated(
     vx, vy, vz = lane(r, 1) * w, lane(r, 2) * w, lane(r, 3) * w
     ax, ay, az = lane(r, 4) * w, lane(r, 5) * w, lane(r, 6) * w
     if delayed is not None:
-        ax, ay, az = _damped(delayed, ax, ay, az, lane(u, 0), lane(u, 1), lane(u, 2))
+        ax, ay, az = damped(delayed, ax, ay, az, lane(u, 0), lane(u, 1), lane(u, 2))
     ex, ey, ez = ax, ay, az  # the acceleration without planes and tools
     if bounded:
         vx, vy, vz = constrain(planes, mesh, i, j, k, vx, vy, vz, base, drives)
@@ -95,7 +95,7 @@ def integrated(
             ax, ay, az = ax * gx, ay * gy, az * gz
     if local is not None:
         x, y, z = ax, ay, az
-        ax, ay, az = _damped(local, ax, ay, az, vx, vy, vz)
+        ax, ay, az = damped(local, ax, ay, az, vx, vy, vz)
         ex, ey, ez = ex + ax - x, ey + ay - y, ez + az - z
         if bounded:
             ax, ay, az = constrain(planes, mesh, i, j, k, ax, ay, az, pull, True)

@@ -16,7 +16,7 @@ from mpmgeo.state.grid import NODES, SIDE
 
 
 @inlined
-def _holder(planes, mesh, i, j, k, axis):
+def holder(planes, mesh, i, j, k, axis):
     """Return the number of the plane that holds a node along an axis, −1 without.
 
     At edges the plane normal to the axis counts, else the first one that is fixed; a moving base
@@ -78,9 +78,9 @@ def add_forces(
                     h, cutoff, bounded, b * NODES + n, i, j, k, r,
                     load(nodes, (b * NODES + n) * LANES),
                 )  # fmt: skip
-                hx = _holder(planes, mesh, i, j, k, 0)
-                hy = _holder(planes, mesh, i, j, k, 1)
-                hz = _holder(planes, mesh, i, j, k, 2)
+                hx = holder(planes, mesh, i, j, k, 0)
+                hy = holder(planes, mesh, i, j, k, 1)
+                hz = holder(planes, mesh, i, j, k, 2)
                 if owner is not None:
                     t = owner[b * NODES + n]
                     hx = 6 + t if t >= 0 and given[t, 0] > 0.0 else hx

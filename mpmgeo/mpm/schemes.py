@@ -30,4 +30,26 @@ def usf(s, h):
     s.gather(h, stress=False)
 
 
+def usl_of_two_phases(s, h):
+    """Update stress last; the pores are pressed while the particles are where they were."""
+    s.scatter()
+    s.fluid.scatter(s)
+    s.fluid.update_momentum(s, h)
+    s.fluid.gather(s, h)
+    s.gather(h)
+
+
+def musl_of_two_phases(s, h):
+    """Modified update stress last: strain and pressure from both phases' new momentum."""
+    s.scatter()
+    s.fluid.scatter(s)
+    s.fluid.update_momentum(s, h)
+    s.remap(h)
+    s.fluid.remap(s, h)
+    s.fluid.update_velocity(s)
+    s.fluid.gather(s, None)
+    s.gather(None)
+
+
 SCHEMES = {"USL": usl, "MUSL": musl, "USF": usf}
+SCHEMES_OF_TWO_PHASES = {"USL": usl_of_two_phases, "MUSL": musl_of_two_phases}

@@ -11,6 +11,7 @@ from mpmgeo.boundaries.planes import Planes
 from mpmgeo.mpm import grid_update, reactions, transfer
 from mpmgeo.mpm.point_loads import PointLoads
 from mpmgeo.mpm.tools import Tools
+from mpmgeo.mpm.two_phase import PoreFluid
 from mpmgeo.naming import PLANES
 from mpmgeo.numerics.clock import Clock
 from mpmgeo.state.grid import Grid
@@ -62,6 +63,7 @@ class Solver:
     leaky: bool = False  # whether particles may pass planes that hold, as in MPM-Geomechanics
     cutoff: float = 0.0  # [kg] nodal mass up to which forces do not move a node
     tools: Tools | None = None
+    fluid: PoreFluid | None = None
     measured: tuple[int, ...] = ()  # intervals of steps at which the reactions are measured
 
     time: float = 0.0
@@ -72,13 +74,15 @@ class Solver:
     def __post_init__(self):
         self.count = len(self.population.position)
         self.small = self.count <= SMALL
-        self._motion = STILL
+        self.motion = STILL
         self.reactions = None  # (6 + tools, 3) [N] of planes and tools when last measured
         self.last_energy = 0.0
         self.peak_energy = None  # before kinetic damping stopped the particles, if it is on
         self.gone = self.count  # how many particles are not where the order says
         if self.base is not None:
             self.planes = self.base.planes(self.planes)
+        if self.fluid is not None:
+            self.fluid.follow(self.base)
 
     def arrange(self):
         """Sort the particles now if some are not where the order says."""
@@ -91,7 +95,7 @@ class Solver:
         """Advance by one time step; the first one changes velocities by half a step."""
         h = 0.5 * self.time_step if self.steps == 0 else self.time_step
         if self.base is not None and not self.base.ended:
-            self._motion = self.base.advance(self.time, h)
+            self.motion = self.base.advance(self.time, h)
             if self.base.ended:
                 self.planes = self.base.planes_after(self.planes)
         self.clock.begin()
@@ -161,7 +165,7 @@ class Solver:
         energy = self.peak_energy = self.kinetic_energy()
         if energy < self.last_energy:
             for s in self.sets:
-                s.v[: s.active] = 0.0
+                s.stop()
             if self.tools is not None:
                 self.tools.hold(self.sets)
             energy = 0.0
@@ -205,14 +209,15 @@ class Solver:
 
     # The stages
 
-    def _run(self, kernel, *arguments):
+    def call(self, kernel, *arguments):
+        """Call a kernel for the solver's shape and mesh, without threads in a small scene."""
         return (kernel.serial if self.small else kernel)(self.shape, self.grid.mesh, *arguments)
 
     def scatter(self, internal=True):
         """Fill the tiles with mass, momentum and external force, and the internal one if asked."""
         g = self.grid
         for number, s in enumerate(self.sets):
-            self._run(
+            self.call(
                 transfer.scatter,
                 *(number == 0, s.chunk, s.start, g.corner, s.half, s.x, s.v, s.m, s.V),
                 *((s.stress, s.pressure) if internal else (None, None)),
@@ -222,27 +227,29 @@ class Solver:
 
     def update_momentum(self, h):
         """Integrate the nodal momentum over h."""
-        g, motion = self.grid, self._motion
+        g, motion = self.grid, self.motion
         if self.point_loads is not None:
             self.point_loads.apply(g)
         arguments = (
             *(self.planes, motion.before, motion.acceleration, motion.drives),
-            *(self.local, self.delayed, *self._driven("before", "after"), h, self.cutoff),
+            *(self.local, self.delayed, *self.driven("before", "after"), h, self.cutoff),
             *(g.chunk, g.active_corner, g.below, g.tiles, g.scratch, g.nodes),
         )
-        if any((self.steps + 1) % every == 0 for every in self.measured):
-            self._measure(arguments)
-        self._run(grid_update.update_momentum, *arguments)
+        self.measure(reactions.add_forces, arguments)
+        self.call(grid_update.update_momentum, *arguments)
         self.clock.lap("grid update")
 
-    def _measure(self, arguments):
+    def measure(self, kernel, arguments):
+        """Sum the forces of planes and tools with a kernel if this step is one of those wanted."""
+        if not any((self.steps + 1) % every == 0 for every in self.measured):
+            return
         tools = 0 if self.tools is None else len(self.tools.given)
         forces = np.zeros((len(self.grid.active), len(PLANES) + tools, 3))
-        self._run(reactions.add_forces, *arguments, forces)
+        self.call(kernel, *arguments, forces)
         self.reactions = forces.sum(axis=0)
         self.clock.lap("reactions")
 
-    def _driven(self, *names):
+    def driven(self, *names):
         """Return the nodes' tools, their components and velocities for kernels; None without."""
         tools = self.tools
         if tools is None:
@@ -252,10 +259,10 @@ class Solver:
     def update_velocity(self, base):
         """Make nodal velocities of the momentum in the tiles; base nodes move with the base."""
         g = self.grid
-        velocity = self._motion.after if base == "after" else self._motion.before
-        self._run(
+        velocity = self.motion.after if base == "after" else self.motion.before
+        self.call(
             grid_update.update_velocity,
-            *(self.planes, velocity, self._motion.drives, *self._driven(base)),
+            *(self.planes, velocity, self.motion.drives, *self.driven(base)),
             *(g.chunk, g.active_corner, g.below, g.tiles, g.scratch, g.nodes),
         )
         self.clock.lap("grid update")
@@ -264,7 +271,7 @@ class Solver:
         """Move the particles; change velocities by h times the acceleration unless h is None."""
         g = self.grid
         for s in self.sets:
-            self.gone += self._run(
+            self.gone += self.call(
                 transfer.gather,
                 *(s.law if stress else None, s.rotation, s.chunk, s.start, g.corner, g.above),
                 *(g.nodes, g.scratch, s.half, s.x, None if h is None else s.v, s.V, s.stress),
@@ -276,7 +283,7 @@ class Solver:
         """Change velocities by h times the acceleration, put the new momentum into the tiles."""
         g = self.grid
         for number, s in enumerate(self.sets):
-            self._run(
+            self.call(
                 transfer.remap,
                 *(number == 0, s.chunk, s.start, g.corner, g.above, g.nodes, g.scratch),
                 *(s.half, s.x, s.v, s.m, h, g.tiles),
@@ -287,7 +294,7 @@ class Solver:
         """Update stress with the nodal velocities, add the internal force to the tiles."""
         g = self.grid
         for s in self.sets:
-            self._run(
+            self.call(
                 transfer.strain_and_force,
                 *(s.law, s.rotation, s.chunk, s.start, g.corner, g.above, g.nodes, g.scratch),
                 *(s.half, s.x, s.V, s.stress, s.pressure, s.state, s.strain),

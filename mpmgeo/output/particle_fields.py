@@ -23,19 +23,22 @@ _NAMES = {
     "von_mises_stress": "Von Mises Stress",
     "density": "Density",
     "volume": "Volume",
+    "velocity_fluid": "Velocity Fluid",
+    "porosity": "Porosity",
 }
-_ARRAYS = {"position": "x", "velocity": "v", "mass": "m", "volume": "V", "stress": "stress"}
+_ARRAYS = {"position": "x", "velocity": "v", "volume": "V", "stress": "stress"}
 TENSORS = {"stress": "Stress", "strain": "Strain"}
-_VECTORS = ("position", "velocity", "displacement", "external_force")
+_VECTORS = ("position", "velocity", "displacement", "external_force", "velocity_fluid")
 WITH_STRAIN = ("strain", "deviatoric_strain")
 """Fields for which the particles' strains must be kept."""
 
 
 def particle_field(solver, key):
-    """Return a field of all particles in row order: any key of a case, or position, mass.
+    """Return a field of all particles in row order: any key of a case, or position, mass,
+    mass_fluid.
 
     Shape (n,), (n, 3), or (n, 6) for stress and strain (xx yy zz xy yz xz); SI units. Raises
-    KeyError for an unknown key, and for a strain that is not kept.
+    KeyError for an unknown key, for a strain that is not kept, for a fluid that is not there.
     """
     parts = [field_of(solver, s, key) for s in solver.sets]
     if not parts:
@@ -52,6 +55,10 @@ def field_of(solver, s, key, at=slice(None)):
         return getattr(s, _ARRAYS[key])[at]
     if key in _VALUES:
         return _VALUES[key](solver, s, at)
+    if key in _OF_THE_FLUID:
+        if s.fluid is None:
+            raise KeyError(f"{key}: exists with two phases only")
+        return _OF_THE_FLUID[key](s, at)
     if key in PARTICLE_FIELDS:
         return np.zeros((len(s.row[at]), *_shape(key)))
     raise KeyError(key)
@@ -87,7 +94,13 @@ def _active(solver, s, at):
 
 
 def _pressure(solver, s, at):
-    return np.zeros(len(s.row[at])) if s.pressure is None else s.pressure[at]
+    pressure = s.pressure if s.fluid is None else s.pf
+    return np.zeros(len(s.row[at])) if pressure is None else pressure[at]
+
+
+def _mass(solver, s, at):
+    """Return the masses of both phases."""
+    return s.m[at] if s.fluid is None else s.m[at] + s.mf[at]
 
 
 def _plastic_strain(solver, s, at):
@@ -101,7 +114,7 @@ def _undrained_strength(solver, s, at):
 
 
 def _external_force(solver, s, at):
-    weight = s.m[at][:, None] * np.asarray(solver.gravity)
+    weight = _mass(solver, s, at)[:, None] * np.asarray(solver.gravity)
     return weight if s.force is None else weight + s.force[at]
 
 
@@ -137,5 +150,11 @@ _VALUES = {
     "deviatoric_strain": lambda *of: np.sqrt(2 / 3) * _size_of_deviator(_strain(*of)),
     "mean_stress": lambda solver, s, at: _mean(s.stress[at]),
     "von_mises_stress": lambda solver, s, at: np.sqrt(1.5) * _size_of_deviator(s.stress[at]),
-    "density": lambda solver, s, at: s.m[at] / s.V[at],
+    "mass": _mass,
+    "density": lambda solver, s, at: _mass(solver, s, at) / s.V[at],
+}
+_OF_THE_FLUID = {
+    "mass_fluid": lambda s, at: s.mf[at],
+    "velocity_fluid": lambda s, at: s.vf[at],
+    "porosity": lambda s, at: 1 - s.m[at] / (s.fluid.ρs * s.V[at]),
 }

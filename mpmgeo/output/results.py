@@ -17,6 +17,8 @@ class ResultFiles:
 
     def __init__(self, folder, case, every):
         self.results = case.results
+        of_fluid = case.results.fluid_fields if case.n_phases == 2 else ()
+        self.fields = case.results.particle_fields + of_fluid
         self.mesh = case.mesh
         self.every = every
         self.folder = folder
@@ -71,7 +73,7 @@ class ResultFiles:
     def _write_particles(self, simulation, label):
         number = len(self.particles.entries) + 1
         path = self.particles.path.parent / f"particles_{number}.vtu"
-        arrays = particle_arrays(simulation.solver, self.results.particle_fields)
+        arrays = particle_arrays(simulation.solver, self.fields)
         write_points(path, simulation.field("position"), arrays)
         self.particles.add(label, path)
         self.particles.write()

@@ -93,8 +93,8 @@ class Grid:
             self.below = _find(keys, keys_of(self.active_corner[:, None] - self._steps))
         else:
             self.below = np.empty((0, self.reach**3), np.int64)
-        self.tiles = _room(self.tiles, len(keys) * self.side**3)
-        self.nodes = _room(self.nodes, len(self.active) * NODES)
+        self.tiles = room(self.tiles, len(keys) * self.side**3)
+        self.nodes = room(self.nodes, len(self.active) * NODES)
         self.nodes[:] = 0.0
         _, now, before = np.intersect1d(self.active, old, return_indices=True)
         self.records()[now] = records[before]  # the last velocities, which damping may ask for
@@ -128,7 +128,7 @@ def cut(start):
     return bounds
 
 
-def _room(buffer, count):
+def room(buffer, count):
     """Return a buffer for `count` records: the old one if it fits and is not far too large."""
     if count * LANES <= buffer.size <= 2 * count * LANES:
         return buffer

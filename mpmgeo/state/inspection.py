@@ -32,15 +32,27 @@ def _unsound(chunk, start, x, v, stress, limit, out):
 
 
 def kinetic_energy(s, serial):
-    """Return ½ Σ m v² [J] of a set's active particles; its bits do not depend on threads."""
+    """Return ½ Σ m v² [J] of a set's active particles; its bits do not depend on threads.
+
+    With a pore fluid, that of both phases.
+    """
+    kernel = _energy.serial if serial else _energy
     out = np.empty(len(s.start) - 1)
-    (_energy.serial if serial else _energy)(s.chunk, s.start, s.m, s.v, out)
-    return float(out.sum())
+    kernel(s.chunk, s.start, s.m, s.v, out)
+    energy = float(out.sum())
+    if s.fluid is not None:
+        kernel(s.chunk, s.start, s.mf, s.vf, out)
+        energy += float(out.sum())
+    return energy
 
 
 def first_unsound(s, limit, serial):
     """Return the index of the first particle with NaN, infinity or a speed above `limit`, or −1."""
+    kernel = _unsound.serial if serial else _unsound
     out = np.empty(len(s.chunk) - 1, np.int64)
-    (_unsound.serial if serial else _unsound)(s.chunk, s.start, s.x, s.v, s.stress, limit, out)
-    found = out[out >= 0]
-    return int(found[0]) if len(found) else -1
+    for v in (s.v, s.vf) if s.fluid is not None else (s.v,):
+        kernel(s.chunk, s.start, s.x, v, s.stress, limit, out)
+        found = out[out >= 0]
+        if len(found):
+            return int(found[0])
+    return -1

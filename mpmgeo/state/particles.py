@@ -10,7 +10,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-ARRAYS = ("row", "x", "v", "m", "V", "stress", "half", "force", "state", "pressure", "strain")
+ARRAYS = (
+    *("row", "x", "v", "m", "V", "stress", "half", "force", "state", "pressure", "strain"),
+    *("mf", "vf", "pf", "free", "pull"),
+)
 """Fields of a set that are arrays, if they are there, with a row for each particle."""
 
 
@@ -40,9 +43,15 @@ class ParticleSet:
     rotation: object = None  # objective rate: how stress follows rotation
     force: np.ndarray | None = None  # (n, 3) constant load beside gravity [N]
     state: np.ndarray | None = None  # (n, k) variables of the law
-    pressure: np.ndarray | None = None  # (n,) pore pressure [Pa], compression positive
+    pressure: np.ndarray | None = None  # (n,) given pore pressure [Pa], compression positive
     strain: np.ndarray | None = None  # (n, 6) sum of the strain increments [-]
     tool: int | None = None  # number of the prescribed velocity that the particles have
+    fluid: object = None  # symbols of the pore fluid; with it m is the solid's mass
+    mf: np.ndarray | None = None  # (n,) mass of the fluid [kg]
+    vf: np.ndarray | None = None  # (n, 3) its velocity [m/s]
+    pf: np.ndarray | None = None  # (n,) its pressure [Pa], compression positive
+    free: np.ndarray | None = None  # (n,) 0 where the pressure is prescribed, else 1
+    pull: np.ndarray | None = None  # (n, 3) force on the fluid against the solid [N]
     start: np.ndarray = field(init=False)  # (blocks + 1,) first particle of each block
     chunk: np.ndarray = field(init=False)  # bounds of the chunks of blocks
 
@@ -53,6 +62,12 @@ class ParticleSet:
     def arrays(self):
         """Return the arrays that are permuted together, by name."""
         return {name: a for name in ARRAYS if isinstance(a := getattr(self, name), np.ndarray)}
+
+    def stop(self):
+        """Set the velocities of the active particles to zero, of both phases."""
+        self.v[: self.active] = 0.0
+        if self.fluid is not None:
+            self.vf[: self.active] = 0.0
 
     @property
     def active(self) -> int:

@@ -8,7 +8,8 @@
     }
 
 The value measured is the mean over the particles that were nearest to `at` initially; `time` [s]
-says when, the end of the case if absent. `tolerance` has the unit of the value.
+says when, the end of the case if absent. `tolerance` has the unit of the value. A field of single
+numbers, such as the pressure, needs no component.
 """
 
 from dataclasses import dataclass
@@ -19,6 +20,8 @@ COMPONENTS = {
     "displacement": ("x", "y", "z"),
     "velocity": ("x", "y", "z"),
     "stress": ("xx", "yy", "zz", "xy", "yz", "xz"),
+    "velocity_fluid": ("x", "y", "z"),
+    "pressure": ("",),
 }
 
 
@@ -28,12 +31,12 @@ class Expectation:
 
     name: str
     field: str
-    component: str
     at: tuple[float, float, float]
     value: float
     tolerance: float
     time: float
     source: str
+    component: str = ""
 
     def measure(self, simulation) -> float:
         """Return the number as the simulation has it at its present time."""
@@ -41,7 +44,8 @@ class Expectation:
         initial = simulation.field("position") - simulation.field("displacement")
         distance = np.linalg.norm(initial - np.array(self.at), axis=1)
         nearest = distance < distance.min() * (1 + 1e-6) + 1e-12
-        return float(simulation.field(self.field)[nearest, column].mean())
+        field = simulation.field(self.field).reshape(len(nearest), -1)
+        return float(field[nearest, column].mean())
 
 
 @dataclass(frozen=True)

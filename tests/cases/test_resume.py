@@ -77,6 +77,24 @@ ELASTIC = {"type": "elastic", "id": 2, "density": 500.0, "young": 5e5, "poisson"
 PLASTIC = ELASTIC | {"type": "mohr-coulomb", "id": 1, "friction": 30, "cohesion": 1e3}
 PUSHED = {"name": "pushed", "body": 1, "velocity": [9, None, 1], "every": 5}
 SHAKEN = {"earthquake": {"active": True, "file": "record.csv"}}
+WET = {
+    "n_phases": 2,
+    "materials": [
+        law
+        | {
+            "density": 2000.0,
+            "density_fluid": 1000.0,
+            "porosity": n,
+            "bulk_fluid": 1e6,
+            "hydraulic_conductivity": [1e-3, 1e-2, 1e-3],
+        }
+        for law, n in ((ELASTIC | {"id": 1}, 0.4), (ELASTIC, 0.2))
+    ],
+    "prescribed_pressure_box": [{"point_p1": [0, 0, 0], "point_p2": [9, 9, 0.3], "pressure": 50}],
+    "pressure_force_box": [
+        {"point_p1": [2, 0, 0], "point_p2": [9, 9, 9], "pressure_force": [0, 0, 1]}
+    ],
+}
 HELD = ("damping", "compatibility")  # keys with which no particle leaves the mesh
 OLD = {"compatibility": "mpm-geomechanics"}
 LOCAL = {"damping": {"type": "local", "value": 0.3}}
@@ -95,6 +113,10 @@ CASES = {
     "earthquake in the old form, MUSL": SHAKEN | OLD | {"stress_scheme_update": "MUSL"},
     "Mohr–Coulomb": {"materials": [PLASTIC, ELASTIC]},
     "prescribed velocity": {"prescribed_velocity": [PUSHED]},
+    "two phases": WET,
+    "two phases, MUSL": WET | {"stress_scheme_update": "MUSL"},
+    "two phases, kinetic damping": WET | KINETIC,
+    "two phases on a moving base": WET | SHAKEN,
     "point load": {"nodal_point_load": [[[1, 1, 1], [0, 0, -3000]]]},
     "every step": {"results": {"print": 0, "material_point_results": ["stress"]}},
 }

@@ -55,7 +55,13 @@ KEYS = {
 }
 
 # What a key needs around it, by its place.
-STONE = {"id": 1, "density": 2000, "young": 1e6, "poisson": 0.3}
+WATER = {
+    "density_fluid": 1000,
+    "porosity": 0.4,
+    "bulk_fluid": 1e8,
+    "hydraulic_conductivity": [1e-3, 1e-3, 1e-3],
+}
+STONE = {"id": 1, "density": 2000, "young": 1e6, "poisson": 0.3} | WATER
 AROUND = {
     "materials.elastic": {"type": "elastic"} | STONE,
     "materials.mohr-coulomb": STONE | {"type": "mohr-coulomb", "friction": 30, "cohesion": 1e3},
@@ -240,3 +246,18 @@ def test_warning_of_a_row(folder, key, value):
 def test_a_missing_state_is_an_error(folder):
     with pytest.raises(ValueError, match="load_state"):
         Simulation(load_case(case_with("load_state", True)))
+
+
+OF_THE_FLUID = [
+    (key, value)
+    for key, value in ROWS
+    if "pressure_" in key.partition(".")[0] or key.rpartition(".")[2] in WATER or "fluid" in key
+]
+
+
+@pytest.mark.parametrize(("key", "value"), OF_THE_FLUID, ids=[key for key, _ in OF_THE_FLUID])
+def test_row_with_two_phases(folder, key, value):
+    """What belongs to the fluid acts, so that there is nothing to note but an old spelling."""
+    loaded = load_case(case_with(key, value) | {"n_phases": 2})
+    assert not loaded.notes
+    assert not loaded.warnings

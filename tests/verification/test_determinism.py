@@ -8,12 +8,13 @@ FIELDS = ("position", "velocity", "stress", "volume", "active")
 SCHEMES = pytest.mark.parametrize("scheme", ["USL", "MUSL", "USF"])
 
 
-def crash(scheme, threads, **keys):
+def crash(scheme, threads, water=None, **keys):
     """Return the simulation of two bodies of 4,096 particles each that meet, over 200 steps.
 
     They fly through several blocks, hit each other and two walls; some particles leave the mesh.
     """
     soft = {"type": "elastic", "id": 1, "density": 1000.0, "young": 1e5, "poisson": 0.3}
+    soft |= water or {}
     heavy = soft | {"id": 2, "density": 2500.0, "young": 5e5}
     left = {"type": "cuboid", "point_p1": [0.4, 0.1, 0.3], "point_p2": [0.8, 0.5, 0.7]}
     right = {"type": "cuboid", "point_p1": [1.2, 0.2, 0.4], "point_p2": [1.6, 0.6, 0.8]}
@@ -51,6 +52,23 @@ def test_bits_do_not_depend_on_threads(scheme):
     assert np.abs(one.field("stress")).max() > 1e3
     assert 0 < np.count_nonzero(one.field("active") == 0) < 3000
     assert np.isfinite(one.field("velocity")).all()
+
+
+@pytest.mark.parametrize("scheme", ["USL", "MUSL"])
+def test_bits_of_two_phases_do_not_depend_on_threads(scheme):
+    water = {
+        "density_fluid": 1000.0,
+        "porosity": 0.4,
+        "bulk_fluid": 1e6,
+        "hydraulic_conductivity": [1e-3, 1e-3, 1e-2],
+    }
+    keys = {"n_phases": 2, "time_step": 2e-4, "time": 0.04}
+    one, two = (crash(scheme, n, water=water, **keys).run() for n in (1, 2))
+    assert one.threads == 1 and two.threads == 2 and not one.solver.small
+    for key in (*FIELDS, "pressure", "velocity_fluid"):
+        assert (one.field(key) == two.field(key)).all(), key
+    assert one.kinetic_energy() == two.kinetic_energy()
+    assert np.abs(one.field("pressure")).max() > 1e3
 
 
 def test_order_of_particles_does_not_depend_on_threads():

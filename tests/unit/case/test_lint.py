@@ -65,6 +65,20 @@ def test_loads_that_meet_no_particle(case):
     assert point.startswith("nodal_point_load, entry 1: no particle near [2.0, 2.0, 2.0]")
 
 
+def test_boxes_of_the_fluid_without_particles(case):
+    box = {"point_p1": [9, 9, 9], "point_p2": [9, 9, 9]}
+    case["prescribed_pressure_box"] = [box | {"pressure": 1}]
+    case["pressure_force_box"] = [box | {"pressure_force": [0, 0, 1]}]
+    assert lint(simulation_of(case)) == []
+    water = {"density_fluid": 1000, "porosity": 0.4, "bulk_fluid": 1e6}
+    case["materials"]["soil"] |= water | {"hydraulic_conductivity": [1, 1, 1]}
+    warnings = lint(simulation_of(case | {"n_phases": 2}))
+    assert warnings == [
+        "prescribed_pressure_box, entry 1: no particle in the box; nothing happens",
+        "pressure_force_box, entry 1: no particle in the box; nothing happens",
+    ]
+
+
 @pytest.fixture
 def shaken(case, tmp_path):
     """Make a case with a sine of the given frequency [Hz], interval and duration [s] as base."""

@@ -30,7 +30,6 @@ def test_neutral_values_change_nothing(case, keys):
 @pytest.mark.parametrize(
     ("keys", "where"),
     [
-        ({"n_phases": 2}, "n_phases: 2"),
         ({"terrain_contact": {"active": True}}, "terrain_contact.active: true"),
     ],
 )

@@ -1,0 +1,57 @@
+"""Saturated materials: the fluid in their pores, what holds it back, and the waves of both phases.
+
+    c = m_f n g₀/k,   n = m_f/(ρ_f V)                 drag on the fluid of a particle, Darcy's law
+    c² = ½ (a + √(a² − 4b)),   a = (M + (1 − n)² K/n)/ρ₁ + n K/ρ₂,   b = M n K/(ρ₁ ρ₂)
+
+k: hydraulic conductivity, g₀: acceleration in the unit weight ρ_f g₀ that belongs to it, K: bulk
+modulus of the fluid, M: stiffness of the dry skeleton without lateral strain, ρ₁ = (1 − n) ρ_s and
+ρ₂ = n ρ_f. c is the faster wave where no drag ties the phases together; drag only makes it slower.
+
+Source: Biot (1956), J. Acoust. Soc. Am. 28, 168–178, for grains that do not change their volume.
+"""
+
+from math import sqrt
+from typing import NamedTuple
+
+KEYS = ("density_fluid", "porosity", "bulk_fluid", "hydraulic_conductivity")
+"""Keys of a material that only two phases need."""
+
+
+class Symbols(NamedTuple):
+    """Bulk modulus [Pa] and densities [kg/m³] of fluid and grains; g₀/(k ρ) along x, y, z."""
+
+    K: float
+    ρ: float
+    ρs: float
+    dx: float
+    dy: float
+    dz: float
+
+
+def pore_fluid(law, gravity: float) -> Symbols:
+    """Return what kernels need of a law's fluid; `gravity`: that of its unit weight [m/s²]."""
+    drags = (gravity / (k * law.density_fluid) for k in law.hydraulic_conductivity)
+    return Symbols(law.bulk_fluid, law.density_fluid, law.density, *drags)
+
+
+def densities(law) -> tuple[float, float]:
+    """Return the masses of solid and of fluid in a volume of the mixture [kg/m³]."""
+    return (1 - law.porosity) * law.density, law.porosity * law.density_fluid
+
+
+def wave_speed(law) -> float:
+    """Return the speed of the faster compression wave [m/s]."""
+    n, K = law.porosity, law.bulk_fluid
+    M = law.density * law.sound_speed() ** 2
+    ρ1, ρ2 = densities(law)
+    a = (M + (1 - n) ** 2 * K / n) / ρ1 + n * K / ρ2
+    b = M * n * K / (ρ1 * ρ2)
+    return sqrt((a + sqrt(max(a * a - 4 * b, 0.0))) / 2)
+
+
+def critical_time_step(law, cell: float, speed: float) -> float:
+    """Return the time [s] of a wave across a `cell` [m], particles moving at `speed` [m/s].
+
+    Not longer than that of the law by itself, of the dry skeleton.
+    """
+    return min(law.critical_time_step(cell, speed), cell / (wave_speed(law) + speed))
