@@ -12,6 +12,7 @@ from pathlib import Path
 
 from mpmgeo.bodies import BODIES
 from mpmgeo.boundaries.planes import BoundaryConditions
+from mpmgeo.boundaries.terrain import TerrainContact
 from mpmgeo.damping import DAMPINGS, NoDamping
 from mpmgeo.loads import (
     BaseAcceleration,
@@ -218,7 +219,10 @@ class Case:
     hydro_mechanical_coupling: HydroMechanicalCoupling | None = parameter(
         "Pore pressures from a file", default=None
     )
-    earthquake: BaseAcceleration | None = parameter("Motion of the base", default=None)
+    terrain_contact: TerrainContact | None = parameter("Contact with a terrain", default=None)
+    earthquake: BaseAcceleration | None = parameter(
+        "Motion of the base: of the terrain if there is one, else of the lowest plane", default=None
+    )
     results: Results = parameter("What the run writes", default=Results())
 
     notes: tuple[str, ...] = field(default=(), kw_only=True, compare=False)

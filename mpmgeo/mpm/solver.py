@@ -9,6 +9,7 @@ import numpy as np
 from mpmgeo.boundaries.base_motion import STILL, BaseMotion
 from mpmgeo.boundaries.planes import Planes
 from mpmgeo.mpm import grid_update, reactions, transfer
+from mpmgeo.mpm.contact import Contact
 from mpmgeo.mpm.point_loads import PointLoads
 from mpmgeo.mpm.tools import Tools
 from mpmgeo.naming import PLANES
@@ -61,6 +62,7 @@ class Solver:
     settles: bool = False
     cutoff: float = 0.0  # [kg] nodal mass up to which forces do not move a node
     tools: Tools | None = None
+    contact: Contact | None = None
     measured: tuple[int, ...] = ()  # intervals of steps at which the reactions are measured
 
     time: float = 0.0
@@ -71,7 +73,7 @@ class Solver:
     def __post_init__(self):
         self.count = len(self.population.position)
         self.small = self.count <= SMALL
-        self._motion = STILL
+        self.motion = STILL
         self.reactions = None  # (6 + tools, 3) [N] of planes and tools when last measured
         self.last_energy = 0.0
         self.peak_energy = None  # before kinetic damping stopped the particles, if it is on
@@ -90,7 +92,7 @@ class Solver:
         """Advance by one time step; the first one changes velocities by half a step."""
         h = 0.5 * self.time_step if self.steps == 0 else self.time_step
         if self.base is not None and not self.base.ended:
-            self._motion = self.base.advance(self.time, h)
+            self.motion = self.base.advance(self.time, h)
             if self.base.ended:
                 self.planes = self.base.planes_after(self.planes)
         self.clock.begin()
@@ -104,6 +106,8 @@ class Solver:
         self.scheme(self, h)
         if self.tools is not None:
             self.tools.hold(self.sets)
+        if self.contact is not None:
+            self.contact.follow(self.motion, self.time_step)
         self.steps += 1
         self.time += self.time_step
         if self.settles:
@@ -196,14 +200,15 @@ class Solver:
 
     # The stages
 
-    def _run(self, kernel, *arguments):
+    def run_kernel(self, kernel, *arguments):
+        """Run a kernel with shape and mesh before its arguments, in threads if it pays."""
         return (kernel.serial if self.small else kernel)(self.shape, self.grid.mesh, *arguments)
 
     def scatter(self, internal=True):
         """Fill the tiles with mass, momentum and external force, and the internal one if asked."""
         g = self.grid
         for number, s in enumerate(self.sets):
-            self._run(
+            self.run_kernel(
                 transfer.scatter,
                 *(number == 0, s.chunk, s.start, g.corner, s.half, s.x, s.v, s.m, s.V),
                 *((s.stress, s.pressure) if internal else (None, None)),
@@ -213,7 +218,7 @@ class Solver:
 
     def update_momentum(self, h):
         """Integrate the nodal momentum over h."""
-        g, motion = self.grid, self._motion
+        g, motion = self.grid, self.motion
         if self.point_loads is not None:
             self.point_loads.apply(g)
         arguments = (
@@ -223,13 +228,16 @@ class Solver:
         )
         if any((self.steps + 1) % every == 0 for every in self.measured):
             self._measure(arguments)
-        self._run(grid_update.update_momentum, *arguments)
+        self.run_kernel(grid_update.update_momentum, *arguments)
         self.clock.lap("grid update")
+        if self.contact is not None and h > 0.0:
+            self.contact.act(self, h)
+            self.clock.lap("contact")
 
     def _measure(self, arguments):
         tools = 0 if self.tools is None else len(self.tools.given)
         forces = np.zeros((len(self.grid.active), len(PLANES) + tools, 3))
-        self._run(reactions.add_forces, *arguments, forces)
+        self.run_kernel(reactions.add_forces, *arguments, forces)
         self.reactions = forces.sum(axis=0)
         self.clock.lap("reactions")
 
@@ -243,10 +251,10 @@ class Solver:
     def update_velocity(self, base):
         """Make nodal velocities of the momentum in the tiles; base nodes move with the base."""
         g = self.grid
-        velocity = self._motion.after if base == "after" else self._motion.before
-        self._run(
+        velocity = self.motion.after if base == "after" else self.motion.before
+        self.run_kernel(
             grid_update.update_velocity,
-            *(self.planes, velocity, self._motion.drives, *self._driven(base)),
+            *(self.planes, velocity, self.motion.drives, *self._driven(base)),
             *(g.chunk, g.active_corner, g.below, g.tiles, g.scratch, g.nodes),
         )
         self.clock.lap("grid update")
@@ -255,19 +263,22 @@ class Solver:
         """Move the particles; change velocities by h times the acceleration unless h is None."""
         g = self.grid
         for s in self.sets:
-            self.gone += self._run(
+            self.gone += self.run_kernel(
                 transfer.gather,
                 *(s.law if stress else None, s.rotation, s.chunk, s.start, g.corner, g.above),
                 *(g.nodes, g.scratch, s.half, s.x, None if h is None else s.v, s.V, s.stress),
                 *(s.state, s.strain, self.time_step, 0.0 if h is None else h),
             )
         self.clock.lap("gather")
+        if self.contact is not None:
+            self.gone += self.contact.settle(self)
+            self.clock.lap("contact")
 
     def remap(self, h):
         """Change velocities by h times the acceleration, put the new momentum into the tiles."""
         g = self.grid
         for number, s in enumerate(self.sets):
-            self._run(
+            self.run_kernel(
                 transfer.remap,
                 *(number == 0, s.chunk, s.start, g.corner, g.above, g.nodes, g.scratch),
                 *(s.half, s.x, s.v, s.m, h, g.tiles),
@@ -278,7 +289,7 @@ class Solver:
         """Update stress with the nodal velocities, add the internal force to the tiles."""
         g = self.grid
         for s in self.sets:
-            self._run(
+            self.run_kernel(
                 transfer.strain_and_force,
                 *(s.law, s.rotation, s.chunk, s.start, g.corner, g.above, g.nodes, g.scratch),
                 *(s.half, s.x, s.V, s.stress, s.pressure, s.state, s.strain),

@@ -10,7 +10,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-ARRAYS = ("row", "x", "v", "m", "V", "stress", "half", "force", "state", "pressure", "strain")
+ARRAYS = (
+    *("row", "x", "v", "m", "V", "stress", "half", "force", "state", "pressure", "strain"),
+    *("touching", "contact"),
+)
 """Fields of a set that are arrays, if they are there, with a row for each particle."""
 
 
@@ -42,6 +45,8 @@ class ParticleSet:
     state: np.ndarray | None = None  # (n, k) variables of the law
     pressure: np.ndarray | None = None  # (n,) pore pressure [Pa], compression positive
     strain: np.ndarray | None = None  # (n, 6) sum of the strain increments [-]
+    touching: np.ndarray | None = None  # (n,) 1 while in contact with the ground, else 0
+    contact: np.ndarray | None = None  # (n, 9) normal, tangential force [N], displacement out [m]
     tool: int | None = None  # number of the prescribed velocity that the particles have
     start: np.ndarray = field(init=False)  # (blocks + 1,) first particle of each block
     chunk: np.ndarray = field(init=False)  # bounds of the chunks of blocks

@@ -1,0 +1,145 @@
+"""Distances to a surface where particles are: tiles of nodes under the blocks near it.
+
+Distances belong to the lattice of the mesh, fixed to the ground. If the ground has moved by u,
+a particle at x asks at x − u: its block's tile begins `shift` nodes beside the block, and is one
+node longer than the tile of the grid, so that a part of a cell has room.
+
+Distances of a block of nodes are computed when first needed, and kept.
+"""
+
+import numpy as np
+from numba import prange
+
+from mpmgeo.boundaries.distance import FAR, fill
+from mpmgeo.numerics.jit import blockwise, inlined
+from mpmgeo.numerics.simd import lane, pack4
+from mpmgeo.state.grid import CHUNKS, NODES, SIDE, corners_of, cut, keys_of
+
+STARTS = SIDE + 1  # places along an axis where a particle's stencil may begin in a tile
+
+
+@blockwise
+def assemble(near, begin, at, reach, known, S, level, lowest):
+    """Write the tiles of the blocks `near`, and the lowest distance under every stencil.
+
+    `begin` (blocks, 3): first node of a tile, `at` (blocks, reach³): rows of `known` that it needs.
+    """
+    row = SIDE + S
+    for c in prange(CHUNKS):
+        for s in range(c * len(near) // CHUNKS, (c + 1) * len(near) // CHUNKS):
+            b = near[s]
+            o0, o1, o2 = begin[b, 0] % SIDE, begin[b, 1] % SIDE, begin[b, 2] % SIDE
+            for i in range(row):
+                for j in range(row):
+                    for k in range(row):
+                        I, J, K = i + o0, j + o1, k + o2
+                        block = at[b, (I // SIDE * reach + J // SIDE) * reach + K // SIDE]
+                        inner = (I % SIDE * SIDE + J % SIDE) * SIDE + K % SIDE
+                        level[((s * row + i) * row + j) * row + k] = known[block, inner]
+            for i in range(STARTS):
+                for j in range(STARTS):
+                    for k in range(STARTS):
+                        low = FAR
+                        for n in range(S * S * S):
+                            I, J, K = i + n // (S * S), j + n // S % S, k + n % S
+                            low = min(low, level[((s * row + I) * row + J) * row + K])
+                        lowest[((s * STARTS + i) * STARTS + j) * STARTS + k] = low
+
+
+@inlined
+def first_of(first):
+    """Return the place in a list of all stencils of the one that begins at a node of a tile."""
+    return (int(lane(first, 0)) * STARTS + int(lane(first, 1))) * STARTS + int(lane(first, 2))
+
+
+@inlined
+def level_at(level, n0, row, wx, wy, wz):
+    """Return Σ S d and Σ ∂S/∂x d, Σ ∂S/∂y d, Σ ∂S/∂z d over the nodes from n0 on; per cell."""
+    S = len(wx) // 2
+    d = gx = gy = gz = 0.0
+    for i in range(S):
+        a = b = c = 0.0
+        for j in range(S):
+            n = n0 + (i * row + j) * row
+            r = q = 0.0
+            for k in range(S):
+                r += wz[k] * level[n + k]
+                q += wz[S + k] * level[n + k]
+            a, b, c = a + wy[j] * r, b + wy[S + j] * r, c + wy[j] * q
+        d, gx, gy, gz = d + wx[i] * a, gx + wx[S + i] * a, gy + wx[i] * b, gz + wx[i] * c
+    return d, gx, gy, gz
+
+
+@inlined
+def tile_origin(mesh, corner, b, shift):
+    """Return the position of the first node of the tile of distances of block b."""
+    return pack4(
+        mesh.ox + (corner[b, 0] * SIDE + shift[0]) * mesh.hx,
+        mesh.oy + (corner[b, 1] * SIDE + shift[1]) * mesh.hy,
+        mesh.oz + (corner[b, 2] * SIDE + shift[2]) * mesh.hz,
+        0.0,
+    )
+
+
+class NearGround:
+    """Which blocks of a grid are near the ground, and the distances under them.
+
+    near (k,): owner blocks; chunk: bounds of their chunks; level, lowest: see `assemble`; active
+    (a,): blocks of nodes under them; below (a, ·): as the grid's, of near owners alone.
+    """
+
+    def __init__(self, ground, mesh, width, reach):
+        self.ground, self.mesh, self.width, self.reach = ground, mesh, width, reach
+        cell = np.array([mesh.hx, mesh.hy, mesh.hz])
+        self.cell = cell
+        self.band = reach + 0.5 * width * float(np.linalg.norm(cell))
+        self.shift = (0, 0, 0)
+        self._owners = None  # keys of the grid's owner blocks for which this was arranged
+        self._keys = np.empty(0, np.int64)  # blocks whose distances are known, ascending
+        self._known = np.empty((0, NODES))
+
+    def arrange(self, grid, offset, serial):
+        """Follow the blocks of the grid, and the ground that has moved by `offset` (3,) [m]."""
+        shift = tuple(int(i) for i in np.floor(-np.asarray(offset) / self.cell))
+        if grid.keys is self._owners and shift == self.shift:
+            return
+        self._owners, self.shift = grid.keys, shift
+        begin = grid.corner * SIDE + np.array(shift)
+        reach = (SIDE + self.width + SIDE - 2) // SIDE + 1
+        steps = np.stack(np.meshgrid(*3 * [np.arange(reach)], indexing="ij"), -1).reshape(-1, 3)
+        corner = begin[:, None] // SIDE + steps
+        at = self._find(corner, serial)
+        is_near = np.abs(self._known).min(axis=1, initial=FAR) <= self.band
+        near = np.flatnonzero(is_near[at].any(axis=1)) if len(at) else np.empty(0, np.int64)
+        row, S = SIDE + self.width, self.width
+        level, lowest = np.empty(len(near) * row**3), np.empty(len(near) * STARTS**3)
+        run = assemble.serial if serial else assemble
+        run(near, begin, at, reach, self._known, S, level, lowest)
+        self._keep_low(grid, near, level, lowest)
+
+    def _keep_low(self, grid, near, level, lowest):
+        """Keep the blocks in which a particle can be within reach of the ground."""
+        level, lowest = level.reshape(-1, (SIDE + self.width) ** 3), lowest.reshape(-1, STARTS**3)
+        low = lowest.min(axis=1, initial=FAR) <= self.reach
+        self.near = near[low]
+        self.level, self.lowest = level[low].ravel(), lowest[low].ravel()
+        self.chunk = cut(np.arange(len(self.near) + 1))
+        self.active = np.unique(grid.above[self.near])
+        self.nodes_chunk = cut(np.arange(len(self.active) + 1))
+        is_near = np.zeros(len(grid.keys) + 1, bool)
+        is_near[self.near] = True
+        below = grid.below[self.active]
+        self.below = np.where(is_near[below], below, -1)
+
+    def _find(self, corner, serial):
+        """Return the rows of the known distances of blocks (n, m, 3), computing what is missing."""
+        keys = keys_of(corner)
+        fresh = np.setdiff1d(keys, self._keys)
+        if len(fresh):
+            values = np.empty((len(fresh), NODES))
+            run = fill.serial if serial else fill
+            run(self.ground, self.mesh, self.band, corners_of(fresh), values)
+            order = np.argsort(np.concatenate([self._keys, fresh]), kind="stable")
+            self._keys = np.concatenate([self._keys, fresh])[order]
+            self._known = np.concatenate([self._known, values])[order]
+        return np.searchsorted(self._keys, keys)
