@@ -5,6 +5,7 @@ import numpy as np
 from mpmgeo.boundaries.distance import distances
 from mpmgeo.mpm import touch, touch_legacy
 from mpmgeo.mpm.ground import NearGround
+from mpmgeo.state.grid import NODES
 
 
 class Contact:
@@ -33,25 +34,27 @@ class Contact:
                 touch.detect,
                 *(symbols, number == 0, dt, self.offset, motion, near.shift),
                 *(near.level, near.lowest, *place, s.start, grid.corner, grid.above, grid.nodes),
-                *(grid.scratch, s.half, s.x, s.v, s.m, s.touching, s.contact, grid.tiles),
-                self._some,
+                *(grid.scratch, s.half, s.x, s.v, s.m, s.touching, s.contact),
+                *(self._mass, self._some),
             )
         if not self._some.any():
             return
         around = (near.nodes_chunk, near.active)
         run = touch.share.serial if solver.small else touch.share
-        run(solver.shape, *around, near.below, grid.tiles, grid.scratch, grid.nodes)
-        for s in sets:
+        run(solver.shape, *around, near.below, self._some, self._mass, grid.nodes, self._part)
+        for number, s in enumerate(sets):
             solver.run_kernel(
                 touch.press,
-                *(symbols, h, dt, *place, s.start, grid.corner, grid.above, grid.nodes),
-                *(grid.scratch, s.half, s.x, s.m, s.touching, s.contact, grid.tiles, self._some),
+                *(symbols, number == 0, h, dt, *place, near.around, s.start, grid.corner),
+                *(s.half, s.x, s.m, s.touching, s.contact, self._some, self._part, grid.scratch),
+                self._impulse,
             )
         tools = solver.tools
         solver.run_kernel(
             touch.push,
             *(solver.planes, *((None, None) if tools is None else (tools.owner, tools.given))),
-            *(h, *around, grid.active_corner, near.below, grid.tiles, grid.scratch, grid.nodes),
+            *(h, *around, grid.active_corner, near.below, self._some, self._impulse),
+            *(grid.scratch, grid.nodes),
         )
 
     def settle(self, solver):
@@ -77,10 +80,14 @@ class Contact:
         return out
 
     def _arranged(self, solver):
-        self.near.arrange(solver.grid, self.offset, solver.small)
-        if len(self._some) != len(self.near.near):
-            self._some = np.zeros(len(self.near.near), np.int64)
-        return self.near
+        near = self.near
+        if near.arrange(solver.grid, self.offset, solver.small):
+            tile = solver.grid.side**3
+            self._some = np.zeros(len(near.near), np.int64)
+            self._mass = np.empty(len(near.near) * tile)
+            self._impulse = np.empty((len(near.near) * tile, 3))
+            self._part = np.empty(len(near.active) * NODES)
+        return near
 
     def is_near(self, solver, s, at):
         """Return which of the particles `at` of a set are in blocks near the ground."""

@@ -85,7 +85,8 @@ class NearGround:
     """Which blocks of a grid are near the ground, and the distances under them.
 
     near (k,): owner blocks; chunk: bounds of their chunks; level, lowest: see `assemble`; active
-    (a,): blocks of nodes under them; below (a, ·): as the grid's, of near owners alone.
+    (a,): blocks of nodes under their tiles; around (k, ·), below (a, ·): as the grid's above and
+    below, but with places in `active` and `near`.
     """
 
     def __init__(self, ground, mesh, width, reach):
@@ -99,10 +100,13 @@ class NearGround:
         self._known = np.empty((0, NODES))
 
     def arrange(self, grid, offset, serial):
-        """Follow the blocks of the grid, and the ground that has moved by `offset` (3,) [m]."""
+        """Follow the blocks of the grid, and the ground that has moved by `offset` (3,) [m].
+
+        Returns whether anything changed.
+        """
         shift = tuple(int(i) for i in np.floor(-np.asarray(offset) / self.cell))
         if grid.keys is self._owners and shift == self.shift:
-            return
+            return False
         self._owners, self.shift = grid.keys, shift
         begin = grid.corner * SIDE + np.array(shift)
         reach = (SIDE + self.width + SIDE - 2) // SIDE + 1
@@ -116,6 +120,7 @@ class NearGround:
         run = assemble.serial if serial else assemble
         run(near, begin, at, reach, self._known, S, level, lowest)
         self._keep_low(grid, near, level, lowest)
+        return True
 
     def _keep_low(self, grid, near, level, lowest):
         """Keep the blocks in which a particle can be within reach of the ground."""
@@ -126,10 +131,10 @@ class NearGround:
         self.chunk = cut(np.arange(len(self.near) + 1))
         self.active = np.unique(grid.above[self.near])
         self.nodes_chunk = cut(np.arange(len(self.active) + 1))
-        is_near = np.zeros(len(grid.keys) + 1, bool)
-        is_near[self.near] = True
-        below = grid.below[self.active]
-        self.below = np.where(is_near[below], below, -1)
+        self.around = np.searchsorted(self.active, grid.above[self.near])
+        place = np.full(len(grid.keys) + 1, -1)
+        place[self.near] = np.arange(len(self.near))
+        self.below = place[grid.below[self.active]]
 
     def _find(self, corner, serial):
         """Return the rows of the known distances of blocks (n, m, 3), computing what is missing."""

@@ -18,14 +18,13 @@ The impulses stand for the force J/h on the particle, h the step of velocities.
 from numba import prange
 
 from mpmgeo.boundaries.planes import constrain
-from mpmgeo.mpm.grid_update import is_bounded, sum_tiles
+from mpmgeo.mpm.grid_update import is_bounded
 from mpmgeo.mpm.ground import first_of, level_at, tile_origin
 from mpmgeo.mpm.tile import (
     block_bounds,
     block_origin,
     collect_value,
     copy_tile,
-    deposit_value,
     half_size,
     in_block,
     locate,
@@ -33,12 +32,15 @@ from mpmgeo.mpm.tile import (
 from mpmgeo.numerics.jit import blockwise, inlined
 from mpmgeo.numerics.simd import (
     LANES,
+    add,
     along,
+    axpy,
     lane,
     load,
     load_row,
     pack,
     pack4,
+    scale,
     store,
     store_row,
     truncate,
@@ -49,7 +51,6 @@ from mpmgeo.state.grid import NODES, SIDE
 
 NORMAL, TANGENT, PUSH = 0, 3, 6  # columns of a particle's contact: two forces, one displacement
 EVEN = 0.1  # |∇d| below which opposite surfaces are so near that there is no normal
-SPARE = 7  # lane of a node's record
 
 
 @inlined
@@ -108,22 +109,21 @@ def gap_of(mesh, half, d, nx, ny, nz, q, p):
 @blockwise
 def detect(
     shape, mesh, contact, first, dt, offset, motion, shift, level, lowest, chunk, near, start,
-    corner, above, nodes, scratch, half, x, v, m, touching, forces, tiles, some,
+    corner, above, nodes, scratch, half, x, v, m, touching, forces, mass, some,
 ):  # fmt: skip
-    """Find the particles that touch, and put their mass into the tiles; `first` empties these.
+    """Find the particles that touch, and add their mass to the tiles; `first` empties these.
 
     `offset`, `motion`: displacement and velocity of the ground. `forces` get the velocities to
     take away along and across the normal and the displacement out of the ground; `some`: whether
     anything in a block touches.
     """
     row = SIDE + width(shape) - 1
-    size = row * row * row * LANES
+    size = row * row * row
     for c in prange(len(chunk) - 1):
-        tile = scratch[c * size : (c + 1) * size]
+        tile = scratch[c * size * LANES : (c + 1) * size * LANES]
         for s in range(chunk[c], chunk[c + 1]):
             b = near[s]
             if first:
-                tiles[b * size : (b + 1) * size] = 0.0
                 some[s] = 0
             is_copied = False
             origin, ground = block_origin(mesh, corner, b), tile_origin(mesh, corner, b, shift)
@@ -134,66 +134,130 @@ def detect(
                     shape, mesh, ground, half, level, lowest, s, bound, offset, x, p
                 )
                 q = (nx * nx + ny * ny + nz * nz) ** 0.5
-                nx, ny, nz = nx / q, ny / q, nz / q
-                gap = gap_of(mesh, half, d, nx, ny, nz, q, p)
-                if abs(d) <= contact.D and q > EVEN and gap <= slack / q:
-                    if not is_copied:
-                        copy_tile(nodes, above, b, row, tile)
-                        is_copied = True
-                    at, wx, wy, wz = locate(shape, mesh, origin, half, x, p)
-                    u = collect_value(tile, at, row, wx, wy, wz)
-                    ux, uy, uz = lane(u, 0) - motion[0], lane(u, 1) - motion[1], lane(u, 2) - motion[2]
-                    speed = ux * nx + uy * ny + uz * nz
-                    wanted = max(-speed - max(gap, 0.0) / dt, 0.0)
-                    if wanted > 0.0 or gap < 0.0:
-                        touching[p] = some[s] = 1
-                        put(forces, p, NORMAL, wanted, nx, ny, nz)
-                        ux, uy, uz = ux - speed * nx, uy - speed * ny, uz - speed * nz
-                        put(forces, p, TANGENT, 1.0, ux, uy, uz)
-                        put(forces, p, PUSH, max(-gap, 0.0), nx, ny, nz)
-                    if wanted > 0.0:
-                        mass = pack(m[p], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-                        deposit_value(tiles, b * size + at, row, wx, wy, wz, mass)
+                if abs(d) <= contact.D and q > EVEN:
+                    nx, ny, nz = nx / q, ny / q, nz / q
+                    gap = gap_of(mesh, half, d, nx, ny, nz, q, p)
+                    if gap <= slack / q:
+                        if not is_copied:
+                            copy_tile(nodes, above, b, row, tile)
+                            is_copied = True
+                        if some[s] == 0:
+                            mass[s * size : (s + 1) * size] = 0.0
+                            some[s] = 1
+                        touching[p] = meet(
+                            shape, mesh, origin, half, motion, dt, s * size, tile, x, m,
+                            gap, nx, ny, nz, forces, mass, p,
+                        )  # fmt: skip
                 if was != 0 and touching[p] == 0:
                     forces[p] = 0.0
 
 
+@inlined
+def meet(
+    shape, mesh, origin, half, motion, dt, first, tile, x, m, gap, nx, ny, nz, forces, mass, p
+):
+    """Return 1 if particle p, at the ground, touches it, and leave what it wants; else 0."""
+    row = SIDE + width(shape) - 1
+    at, wx, wy, wz = locate(shape, mesh, origin, half, x, p)
+    u = collect_value(tile, at, row, wx, wy, wz)
+    ux, uy, uz = lane(u, 0) - motion[0], lane(u, 1) - motion[1], lane(u, 2) - motion[2]
+    speed = ux * nx + uy * ny + uz * nz
+    wanted = max(-speed - max(gap, 0.0) / dt, 0.0)
+    if not (wanted > 0.0 or gap < 0.0):
+        return 0
+    put(forces, p, NORMAL, wanted, nx, ny, nz)
+    put(forces, p, TANGENT, 1.0, ux - speed * nx, uy - speed * ny, uz - speed * nz)
+    put(forces, p, PUSH, max(-gap, 0.0), nx, ny, nz)
+    if wanted > 0.0:
+        n0 = first + at // LANES
+        for i in range(len(wx) // 2):
+            for j in range(len(wx) // 2):
+                w = wx[i] * wy[j] * m[p]
+                n = n0 + (i * row + j) * row
+                for k in range(len(wx) // 2):
+                    mass[n + k] += w * wz[k]
+    return 1
+
+
 @blockwise
-def share(shape, chunk, active, below, tiles, scratch, nodes):
-    """Write into the nodes which share of their mass touches, in the spare lane."""
+def share(shape, chunk, active, below, some, mass, nodes, part):
+    """Write which part of the nodes' mass touches, for the blocks of nodes `active`."""
     row = SIDE + width(shape) - 1
     reach = 1 + (width(shape) + SIDE - 2) // SIDE
     for c in prange(len(chunk) - 1):
-        first = c * row * row * row * LANES
         for a in range(chunk[c], chunk[c + 1]):
-            sum_tiles(tiles, below, a, row, reach, scratch, first)
+            part[a * NODES : (a + 1) * NODES] = 0.0
+            for o in range(reach * reach * reach):
+                s = below[a, o]
+                if s < 0 or some[s] == 0:
+                    continue
+                i0, j0, k0 = o // (reach * reach) * SIDE, o // reach % reach * SIDE, o % reach * SIDE
+                for i in range(min(SIDE, row - i0)):
+                    for j in range(min(SIDE, row - j0)):
+                        n = ((s * row + i + i0) * row + j + j0) * row + k0
+                        for k in range(min(SIDE, row - k0)):
+                            part[a * NODES + (i * SIDE + j) * SIDE + k] += mass[n + k]
             for n in range(NODES):
-                at = (active[a] * NODES + n) * LANES
-                m = nodes[at + 6]
-                nodes[at + SPARE] = scratch[first + n * LANES] / m if m > 0.0 else 0.0
+                m = nodes[(active[a] * NODES + n) * LANES + 6]
+                part[a * NODES + n] = part[a * NODES + n] / m if m > 0.0 else 0.0
+
+
+@inlined
+def copy_part(part, around, s, row, tile):
+    """Copy the parts of mass that touch, at the nodes under tile s, into a tile."""
+    reach = (row + SIDE - 1) // SIDE
+    for di in range(reach):
+        for dj in range(reach):
+            for dk in range(reach):
+                block = around[s, (di * reach + dj) * reach + dk] * NODES
+                i0, j0, k0 = SIDE * di, SIDE * dj, SIDE * dk
+                for i in range(min(SIDE, row - i0)):
+                    for j in range(min(SIDE, row - j0)):
+                        source = block + (i * SIDE + j) * SIDE
+                        at = ((i + i0) * row + j + j0) * row + k0
+                        for k in range(min(SIDE, row - k0)):
+                            tile[at + k] = part[source + k]
+
+
+@inlined
+def collect_part(tile, n0, row, wx, wy, wz):
+    """Return Σ S of numbers at the nodes from n0 on."""
+    S = len(wx) // 2
+    r = 0.0
+    for i in range(S):
+        for j in range(S):
+            n = n0 + (i * row + j) * row
+            q = 0.0
+            for k in range(S):
+                q += wz[k] * tile[n + k]
+            r += wx[i] * wy[j] * q
+    return r
 
 
 @blockwise
 def press(
-    shape, mesh, contact, h, dt, chunk, near, start, corner, above, nodes, scratch, half, x, m,
-    touching, forces, tiles, some,
+    shape, mesh, contact, first, h, dt, chunk, near, around, start, corner, half, x, m, touching,
+    forces, some, part, scratch, impulse,
 ):  # fmt: skip
-    """Put the impulses of the touching particles into the tiles, leave their forces."""
+    """Add the impulses of the touching particles to the tiles, leave their forces."""
     row = SIDE + width(shape) - 1
-    size = row * row * row * LANES
+    size = row * row * row
     for c in prange(len(chunk) - 1):
-        tile = scratch[c * size : (c + 1) * size]
+        tile = scratch[c * size * LANES : (c + 1) * size * LANES]
         for s in range(chunk[c], chunk[c + 1]):
             if some[s] == 0:
                 continue
             b = near[s]
-            copy_tile(nodes, above, b, row, tile)
+            copy_part(part, around, s, row, tile)
+            if first:
+                impulse[s * size : (s + 1) * size] = 0.0
             origin = block_origin(mesh, corner, b)
             for p in range(start[b], start[b + 1]):
                 if touching[p] == 0:
                     continue
                 at, wx, wy, wz = locate(shape, mesh, origin, half, x, p)
-                r = lane(collect_value(tile, at, row, wx, wy, wz), SPARE)
+                at //= LANES
+                r = collect_part(tile, at, row, wx, wy, wz)
                 q = m[p] / r if r > 0.0 else 0.0
                 # the spring may not throw a particle out faster than to the surface in a step
                 k = min(contact.k * h, m[p] / dt)
@@ -206,46 +270,80 @@ def press(
                 q = -q * most / t if t > most else -q
                 put(forces, p, NORMAL, 1.0 / h, jx, jy, jz)
                 put(forces, p, TANGENT, q / h, tx, ty, tz)
-                J = pack(0.0, 0.0, 0.0, 0.0, jx + q * tx, jy + q * ty, jz + q * tz, 0.0)
-                deposit_value(tiles, b * size + at, row, wx, wy, wz, J)
+                J = pack4(jx + q * tx, jy + q * ty, jz + q * tz, 0.0)
+                add_impulse(impulse, s * size + at, row, wx, wy, wz, J)
+
+
+@inlined
+def add_impulse(impulse, n0, row, wx, wy, wz, J):
+    """Add S J to the rows of the nodes from n0 on."""
+    S = len(wx) // 2
+    for i in range(S):
+        for j in range(S):
+            A = scale(wx[i] * wy[j], J)
+            n = n0 + (i * row + j) * row
+            for k in range(S):
+                store_row(impulse, n + k, axpy(wz[k], A, load_row(impulse, n + k)))
 
 
 @blockwise
 def push(
-    shape, mesh, planes, owner, given, h, chunk, active, active_corner, below, tiles, scratch, nodes
-):
+    shape, mesh, planes, owner, given, h, chunk, active, active_corner, below, some, impulse,
+    scratch, nodes,
+):  # fmt: skip
     """Change velocity and acceleration of the nodes by the impulses, as planes and tools allow."""
     row = SIDE + width(shape) - 1
     reach = 1 + (width(shape) + SIDE - 2) // SIDE
-    still = (0.0, 0.0, 0.0)
     for c in prange(len(chunk) - 1):
-        first = c * row * row * row * LANES
+        sums = scratch[c * row * row * row * LANES :][: NODES * 3].reshape(NODES, 3)
         for a in range(chunk[c], chunk[c + 1]):
-            sum_tiles(tiles, below, a, row, reach, scratch, first)
+            if not sum_impulses(impulse, below, some, a, row, reach, sums):
+                continue
             b = active[a]
             I, J, K = active_corner[b, 0], active_corner[b, 1], active_corner[b, 2]
             bounded = is_bounded(mesh, I, J, K)
             for n in range(NODES):
                 at = (b * NODES + n) * LANES
-                r, u = load(scratch, first + n * LANES), load(nodes, at)
+                u = load(nodes, at)
                 m = lane(u, 6)
                 if not m > 0.0:
                     continue
-                vx, vy, vz = lane(r, 4) / m, lane(r, 5) / m, lane(r, 6) / m
+                vx, vy, vz = sums[n, 0] / m, sums[n, 1] / m, sums[n, 2] / m
                 if bounded:
                     i, j, k = I * SIDE + n // 16, J * SIDE + n // 4 % 4, K * SIDE + n % 4
-                    vx, vy, vz = constrain(planes, mesh, i, j, k, vx, vy, vz, still, True)
+                    vx, vy, vz = constrain(
+                        planes, mesh, i, j, k, vx, vy, vz, (0.0, 0.0, 0.0), True
+                    )
                 if owner is not None:
                     t = owner[b * NODES + n]
                     if t >= 0:
-                        vx, vy, vz = (
-                            vx * (1.0 - given[t, 0]),
-                            vy * (1.0 - given[t, 1]),
-                            vz * (1.0 - given[t, 2]),
-                        )
-                ax, ay, az = lane(u, 3) + vx / h, lane(u, 4) + vy / h, lane(u, 5) + vz / h
-                vx, vy, vz = lane(u, 0) + vx, lane(u, 1) + vy, lane(u, 2) + vz
-                store(nodes, at, pack(vx, vy, vz, ax, ay, az, m, 0.0))
+                        vx = 0.0 if given[t, 0] > 0.0 else vx
+                        vy = 0.0 if given[t, 1] > 0.0 else vy
+                        vz = 0.0 if given[t, 2] > 0.0 else vz
+                q = 1.0 / h
+                change = pack(vx, vy, vz, q * vx, q * vy, q * vz, 0.0, 0.0)
+                store(nodes, at, add(u, change))
+
+
+@inlined
+def sum_impulses(impulse, below, some, a, row, reach, sums):
+    """Sum the impulses of the tiles over a block of nodes; tell whether there are any."""
+    found = False
+    for o in range(reach * reach * reach):
+        s = below[a, o]
+        if s < 0 or some[s] == 0:
+            continue
+        if not found:
+            sums[:] = 0.0
+            found = True
+        i0, j0, k0 = o // (reach * reach) * SIDE, o // reach % reach * SIDE, o % reach * SIDE
+        for i in range(min(SIDE, row - i0)):
+            for j in range(min(SIDE, row - j0)):
+                n = ((s * row + i + i0) * row + j + j0) * row + k0
+                for k in range(min(SIDE, row - k0)):
+                    at = (i * SIDE + j) * SIDE + k
+                    store_row(sums, at, load_row(sums, at) + load_row(impulse, n + k))
+    return found
 
 
 @blockwise
