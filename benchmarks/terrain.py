@@ -115,7 +115,7 @@ def time_distances(table, triangles, nodes, rounds):
             begin = time.perf_counter()
             surface = surface_of(corner, np.zeros((len(corner), 3)))
             joined = time.perf_counter()
-            ground = Ground.of(surface, 0.01 * mesh.hx)
+            ground = Ground.of(surface, mesh[:3], 3 * (10.0,), 0.01 * mesh.hx)
             fill(ground, mesh, 1.0, blocks, out)
             end = time.perf_counter()
             parts.append((joined - begin, end - joined))

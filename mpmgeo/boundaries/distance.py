@@ -1,7 +1,6 @@
 """Signed distance to a surface at the nodes of the mesh, computed for whole blocks of them.
 
-Only blocks in a band around the surface are computed, node by node; the others are FAR. Nodes that
-lie outside the mesh continue the surface straight on from its border: a terrain usually ends there.
+Only blocks in a band around the surface are computed, node by node; the others are FAR.
 """
 
 from typing import NamedTuple
@@ -25,38 +24,52 @@ class Ground(NamedTuple):
     box: np.ndarray
     normal: np.ndarray  # (n, 7, 3) pseudo-normals, in the order of the tree
     rim: np.ndarray  # (n, 7) whether a part lies on the border of the surface
-    slack: float  # [m] by which a point may be beyond the border and still above the ground
+    x0: float  # box of the mesh, less a little on all sides [m]
+    y0: float
+    z0: float
+    x1: float
+    y1: float
+    z1: float
+    slack: float  # that little
 
     @classmethod
-    def of(cls, surface, slack, by_plane=False):
-        """Return the symbols of a surface; `by_plane`: signs are those of MPM-Geomechanics."""
+    def of(cls, surface, low, high, slack, by_plane=False):
+        """Return the symbols of a surface in a mesh from `low` to `high` (3,) [m].
+
+        `slack` [m]: how exactly a border is to lie in the mesh to count; `by_plane`: signs are
+        those of MPM-Geomechanics.
+        """
         tree = build(surface.corner)
         normal = np.ascontiguousarray(surface.normal[tree.number])
         rim = np.ascontiguousarray(surface.rim[tree.number[: 0 if by_plane else None]])
-        return cls(*tree, normal, rim, float(slack))
+        box = (*(float(l + slack) for l in low), *(float(h - slack) for h in high))
+        return cls(*tree, normal, rim, *box, float(slack))
 
 
 @inlined
 def signed_distance(ground, t, x, y, z):
     """Return the distance [m] to triangle t, the nearest one: negative below the ground.
 
-    Beyond the border of the surface there is no ground, and all distances are positive.
+    Beyond a border inside the mesh there is no ground: all distances are positive. A surface that
+    ends where the mesh does, or outside, goes on straight.
     """
     qx, qy, qz, part = closest(ground.corner, t, x, y, z)
     ex, ey, ez = x - qx, y - qy, z - qz
-    square = ex * ex + ey * ey + ez * ez
+    d = (ex * ex + ey * ey + ez * ez) ** 0.5
     n = ground.normal
     above = ex * n[t, FACE, 0] + ey * n[t, FACE, 1] + ez * n[t, FACE, 2]
-    sign = 1.0
     if len(ground.rim) == 0:
-        sign = -1.0 if above < 0.0 else 1.0
-    elif ground.rim[t, part]:
-        is_beyond = square - above * above > ground.slack * ground.slack
-        sign = -1.0 if above < 0.0 and not is_beyond else 1.0
-    else:
-        side = ex * n[t, part, 0] + ey * n[t, part, 1] + ez * n[t, part, 2]
-        sign = -1.0 if side < 0.0 else 1.0
-    return sign * square**0.5
+        return -d if above < 0.0 else d
+    if ground.rim[t, part]:
+        is_inside = (
+            ground.x0 < qx < ground.x1 and ground.y0 < qy < ground.y1 and ground.z0 < qz < ground.z1
+        )
+        if not is_inside:
+            return above
+        is_beyond = d * d - above * above > ground.slack * ground.slack
+        return -d if above < 0.0 and not is_beyond else d
+    side = ex * n[t, part, 0] + ey * n[t, part, 1] + ez * n[t, part, 2]
+    return -d if side < 0.0 else d
 
 
 @blockwise
@@ -68,22 +81,6 @@ def distances(ground, x, out):
         for p in range(c * len(x) // CHUNKS, (c + 1) * len(x) // CHUNKS):
             t = nearest(ground, x[p, 0], x[p, 1], x[p, 2], t, waiting)
             out[p] = signed_distance(ground, t, x[p, 0], x[p, 1], x[p, 2])
-
-
-@inlined
-def _at_node(ground, mesh, t, x, y, z, waiting):
-    """Return the distance at a node, straight on outside the mesh, and the nearest triangle."""
-    if len(ground.rim) == 0:
-        t = nearest(ground, x, y, z, t, waiting)
-        return signed_distance(ground, t, x, y, z), t
-    bx = min(max(x, mesh.ox), mesh.ox + mesh.nx * mesh.hx)
-    by = min(max(y, mesh.oy), mesh.oy + mesh.ny * mesh.hy)
-    bz = min(max(z, mesh.oz), mesh.oz + mesh.nz * mesh.hz)
-    t = nearest(ground, bx, by, bz, t, waiting)
-    d = signed_distance(ground, t, bx, by, bz)
-    n = ground.normal
-    d += (x - bx) * n[t, FACE, 0] + (y - by) * n[t, FACE, 1] + (z - bz) * n[t, FACE, 2]
-    return d, t
 
 
 @blockwise
@@ -110,4 +107,5 @@ def fill(ground, mesh, band, corner, out):
                 x = ox + n // 16 * mesh.hx
                 y = oy + n // 4 % 4 * mesh.hy
                 z = oz + n % 4 * mesh.hz
-                out[b, n], t = _at_node(ground, mesh, t, x, y, z, waiting)
+                t = nearest(ground, x, y, z, t, waiting)
+                out[b, n] = signed_distance(ground, t, x, y, z)

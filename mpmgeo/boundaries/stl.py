@@ -37,15 +37,14 @@ def read_stl(path: Path | str) -> Triangles:
         raise ValueError(f"{path}: cannot be read ({error.strerror})") from None
     if not content.strip(b"\0 \t\r\n"):
         raise ValueError(f"{path}: the file is empty")
-    if _is_binary(content):
-        triangles = _binary(path, content)
-    else:
-        triangles = _ascii(path, content)
+    triangles = _binary(path, content) if _is_binary(content) else _ascii(path, content)
     if not len(triangles.corner):
         raise ValueError(f"{path}: no triangles")
     broken = ~np.isfinite(triangles.corner).all(axis=(1, 2))
     if broken.any():
-        raise ValueError(f"{path}: triangle {broken.argmax() + 1} has coordinates that are no numbers")
+        raise ValueError(
+            f"{path}: triangle {broken.argmax() + 1} has coordinates that are no numbers"
+        )
     return triangles
 
 

@@ -7,6 +7,7 @@ from mpmgeo.mpm.contact import Contact, ContactAsMPMGeomechanics
 from mpmgeo.mpm.tools import Tools
 
 RIM = 0.01  # cells by which a point may be beyond the border of a terrain
+MARGIN = 4  # cells around the mesh in which distances are needed
 SAMPLE = 20_000  # particles that are looked at before the run, at least
 
 
@@ -80,9 +81,12 @@ def bind_terrain(case, mesh, width, population, notes):
             f"{_shown(case.mesh.upper)}; the surface reaches from {_shown(low)} to {_shown(high)}"
         )
     cell = sum(case.mesh.cells_dimension) / 3
-    ground = Ground.of(surface, RIM * cell, by_plane=legacy)
+    symbols = terrain.symbols(cell)
+    around = surface if legacy else _meeting(case, terrain.surface, symbols.D + MARGIN * cell)
+    box = (case.mesh.origin, case.mesh.upper)
+    ground = Ground.of(around, *box, RIM * cell, by_plane=legacy)
     kind = ContactAsMPMGeomechanics if legacy else Contact
-    contact = kind(terrain.symbols(cell), ground, mesh, width)
+    contact = kind(symbols, surface, ground, mesh, width)
     _look_below(terrain, contact, population, legacy, notes)
     return contact
 
@@ -93,10 +97,16 @@ def terrain_in_mesh(case, legacy):
     As in MPM-Geomechanics, only those with a corner inside.
     """
     surface = case.terrain_contact.surface
-    low, high = np.array(case.mesh.origin), np.array(case.mesh.upper)
     if legacy:
+        low, high = np.array(case.mesh.origin), np.array(case.mesh.upper)
         inside = ((surface.corner >= low) & (surface.corner <= high)).all(axis=2).any(axis=1)
         return surface.part(inside)
+    return _meeting(case, surface, 0.0)
+
+
+def _meeting(case, surface, margin):
+    """Return the triangles whose box comes nearer than `margin` [m] to the mesh."""
+    low, high = np.array(case.mesh.origin) - margin, np.array(case.mesh.upper) + margin
     lowest, highest = surface.corner.min(axis=1), surface.corner.max(axis=1)
     return surface.part(((lowest <= high) & (highest >= low)).all(axis=1))
 

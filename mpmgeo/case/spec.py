@@ -124,6 +124,16 @@ class Results:
         return _chosen(self.grid_nodal_results, GRID_FIELDS, without=("id",))
 
     @property
+    def terrain_fields(self) -> tuple[str, ...]:
+        """Return the keys of the terrain fields to write, in the order of the files."""
+        return _chosen(self.stl_contact_mesh, TERRAIN_FIELDS, without=())
+
+    @property
+    def terrain_once(self) -> bool:
+        """Return whether only the initial terrain file is written."""
+        return "none" in self.stl_contact_mesh
+
+    @property
     def particles_once(self) -> bool:
         """Return whether only the initial particle file is written."""
         return "none" in self.material_point_results

@@ -3,8 +3,10 @@
 import numpy as np
 
 from mpmgeo.boundaries.distance import distances
-from mpmgeo.mpm import touch, touch_legacy
+from mpmgeo.mpm import press, touch, touch_legacy
+from mpmgeo.mpm.density import density_at, nodal_density
 from mpmgeo.mpm.ground import NearGround
+from mpmgeo.numerics.triangle_tree import FACE
 from mpmgeo.state.grid import NODES
 
 
@@ -14,8 +16,9 @@ class Contact:
     `symbols`: μ, k and D; `offset` (3,) [m]: how far the ground has moved.
     """
 
-    def __init__(self, symbols, ground, mesh, width):
+    def __init__(self, symbols, surface, ground, mesh, width):
         self.symbols = symbols
+        self.surface = surface
         self.ground = ground
         self.near = NearGround(ground, mesh, width, symbols.D)
         self.offset = (0.0, 0.0, 0.0)
@@ -27,12 +30,13 @@ class Contact:
         if not len(near.near):
             return
         dt, motion = solver.time_step, solver.motion.after
+        offset = self.offset if any(self.offset) else None
         sets = _free(solver)
         place = (near.chunk, near.near)
         for number, s in enumerate(sets):
             solver.run_kernel(
                 touch.detect,
-                *(symbols, number == 0, dt, self.offset, motion, near.shift),
+                *(symbols, number == 0, dt, offset, motion, near.shift),
                 *(near.level, near.lowest, *place, s.start, grid.corner, grid.above, grid.nodes),
                 *(grid.scratch, s.half, s.x, s.v, s.m, s.touching, s.contact),
                 *(self._mass, self._some),
@@ -40,18 +44,18 @@ class Contact:
         if not self._some.any():
             return
         around = (near.nodes_chunk, near.active)
-        run = touch.share.serial if solver.small else touch.share
+        run = press.share.serial if solver.small else press.share
         run(solver.shape, *around, near.below, self._some, self._mass, grid.nodes, self._part)
         for number, s in enumerate(sets):
             solver.run_kernel(
-                touch.press,
+                press.press,
                 *(symbols, number == 0, h, dt, *place, near.around, s.start, grid.corner),
                 *(s.half, s.x, s.m, s.touching, s.contact, self._some, self._part, grid.scratch),
                 self._impulse,
             )
         tools = solver.tools
         solver.run_kernel(
-            touch.push,
+            press.push,
             *(solver.planes, *((None, None) if tools is None else (tools.owner, tools.given))),
             *(h, *around, grid.active_corner, near.below, self._some, self._impulse),
             *(grid.scratch, grid.nodes),
@@ -63,7 +67,7 @@ class Contact:
         if self._some.any():
             for s in _free(solver):
                 gone += solver.run_kernel(
-                    touch.move_out,
+                    press.move_out,
                     *(near.chunk, near.near, s.start, solver.grid.corner, s.x),
                     *(s.touching, s.contact, self._some),
                 )
@@ -78,6 +82,19 @@ class Contact:
         out = np.empty(len(x))
         distances(self.ground, np.ascontiguousarray(x) - self.offset, out)
         return out
+
+    def density(self, solver):
+        """Return the share (blocks, 64) of the nodes' volume that particles fill."""
+        return nodal_density(solver)
+
+    def density_at(self, solver, x):
+        """Return that share (n,) at points (n, 3) [m]."""
+        return density_at(solver, x)
+
+    def triangles(self):
+        """Return centres (n, 3) [m] and normals (n, 3) of the triangles as they lie."""
+        corner, normal, _, _ = self.surface
+        return corner.mean(axis=1) + self.offset, normal[:, FACE]
 
     def _arranged(self, solver):
         near = self.near

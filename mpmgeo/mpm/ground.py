@@ -12,7 +12,7 @@ from numba import prange
 
 from mpmgeo.boundaries.distance import FAR, fill
 from mpmgeo.numerics.jit import blockwise, inlined
-from mpmgeo.numerics.simd import lane, pack4
+from mpmgeo.numerics.simd import LANES, axpy, lane, load, pack4, splat
 from mpmgeo.state.grid import CHUNKS, NODES, SIDE, corners_of, cut, keys_of
 
 STARTS = SIDE + 1  # places along an axis where a particle's stencil may begin in a tile
@@ -54,19 +54,25 @@ def first_of(first):
 
 @inlined
 def level_at(level, n0, row, wx, wy, wz):
-    """Return Σ S d and Σ ∂S/∂x d, Σ ∂S/∂y d, Σ ∂S/∂z d over the nodes from n0 on; per cell."""
+    """Return Σ S d and Σ ∂S/∂x d, Σ ∂S/∂y d, Σ ∂S/∂z d over the nodes from n0 on; per cell.
+
+    Eight nodes along z at once; `level` is as much longer than its tiles.
+    """
     S = len(wx) // 2
     d = gx = gy = gz = 0.0
-    for i in range(S):
-        a = b = c = 0.0
-        for j in range(S):
-            n = n0 + (i * row + j) * row
-            r = q = 0.0
-            for k in range(S):
-                r += wz[k] * level[n + k]
-                q += wz[S + k] * level[n + k]
-            a, b, c = a + wy[j] * r, b + wy[S + j] * r, c + wy[j] * q
-        d, gx, gy, gz = d + wx[i] * a, gx + wx[S + i] * a, gy + wx[i] * b, gz + wx[i] * c
+    for k0 in range(0, S, LANES):
+        D = X = Y = splat(0.0)
+        for i in range(S):
+            a = b = splat(0.0)
+            for j in range(S):
+                r = load(level, n0 + (i * row + j) * row + k0)
+                a, b = axpy(wy[j], r, a), axpy(wy[S + j], r, b)
+            D, X, Y = axpy(wx[i], a, D), axpy(wx[S + i], a, X), axpy(wx[i], b, Y)
+        for k in range(k0, min(S, k0 + LANES)):
+            d += wz[k] * lane(D, k - k0)
+            gz += wz[S + k] * lane(D, k - k0)
+            gx += wz[k] * lane(X, k - k0)
+            gy += wz[k] * lane(Y, k - k0)
     return d, gx, gy, gz
 
 
@@ -127,7 +133,7 @@ class NearGround:
         level, lowest = level.reshape(-1, (SIDE + self.width) ** 3), lowest.reshape(-1, STARTS**3)
         low = lowest.min(axis=1, initial=FAR) <= self.reach
         self.near = near[low]
-        self.level, self.lowest = level[low].ravel(), lowest[low].ravel()
+        self.level, self.lowest = np.append(level[low], np.zeros(LANES)), lowest[low].ravel()
         self.chunk = cut(np.arange(len(self.near) + 1))
         self.active = np.unique(grid.above[self.near])
         self.nodes_chunk = cut(np.arange(len(self.active) + 1))

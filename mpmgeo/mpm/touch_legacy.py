@@ -11,9 +11,9 @@ d: gathered distance. At the end particles whose middle was below the surface mo
 import numpy as np
 from numba import prange
 
-from mpmgeo.mpm.ground import tile_origin
+from mpmgeo.mpm.ground import STARTS, first_of, tile_origin
 from mpmgeo.mpm.tile import block_origin, collect_value, copy_tile, locate
-from mpmgeo.mpm.touch import NORMAL, PUSH, TANGENT, level_of, put
+from mpmgeo.mpm.touch import NORMAL, PUSH, TANGENT, first_node, level_of, put
 from mpmgeo.numerics.jit import blockwise
 from mpmgeo.numerics.simd import LANES, lane
 from mpmgeo.numerics.triangle_tree import DEPTH, FACE, closest, nearest
@@ -41,9 +41,10 @@ def impel(
             for p in range(start[b], start[b + 1]):
                 touching[p] = 0
                 forces[p] = 0.0
-                d, _, _, _ = level_of(
-                    shape, mesh, base, half, level, lowest, s, contact.D, (0.0, 0.0, 0.0), x, p
-                )
+                g, node = first_node(shape, mesh, base, None, x, p)
+                if not lowest[s * STARTS**3 + first_of(node)] < contact.D:
+                    continue
+                d, _, _, _ = level_of(shape, mesh, half, level, s, g, node, p)
                 if not abs(d) < contact.D:
                     continue
                 t = nearest(ground, x[p, 0], x[p, 1], x[p, 2], t, waiting)
