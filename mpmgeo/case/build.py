@@ -120,7 +120,7 @@ def _sets(case, population, velocity, laws, tool, touches, notes):
                 state=np.zeros((len(rows), variables)) if variables else None,
                 pressure=None if pressure is None else pressure[rows],
                 strain=np.zeros((len(rows), 6)) if strained else None,
-                touching=np.zeros(len(rows), np.int64) if touches else None,
+                due=np.zeros(len(rows)) if touches else None,
                 contact=np.zeros((len(rows), 9)) if touches else None,
                 tool=int(number) if number >= 0 else None,
             )

@@ -7,7 +7,9 @@ from mpmgeo.mpm import press, touch, touch_legacy
 from mpmgeo.mpm.density import density_at, nodal_density
 from mpmgeo.mpm.ground import NearGround
 from mpmgeo.numerics.triangle_tree import FACE
-from mpmgeo.state.grid import NODES
+from mpmgeo.state.grid import CHUNKS, NODES
+
+CAUTION = 2.0  # for what contact does to the speeds, and for bends of the ground
 
 
 class Contact:
@@ -22,7 +24,11 @@ class Contact:
         self.ground = ground
         self.near = NearGround(ground, mesh, width, symbols.D)
         self.offset = (0.0, 0.0, 0.0)
+        self.way = 0.0  # that nodes near the ground have moved at most, relative to it [m]
         self._some = np.empty(0, np.int64)
+        self._mass = self._part = np.empty(0)
+        self._impulse = np.empty((0, 3))
+        self._speed = np.zeros(CHUNKS)
 
     def act(self, solver, h):
         """Find what touches and change the nodes' velocities and accelerations."""
@@ -32,25 +38,26 @@ class Contact:
         dt, motion = solver.time_step, solver.motion.after
         offset = self.offset if any(self.offset) else None
         sets = _free(solver)
-        place = (near.chunk, near.near)
+        place, around = (near.chunk, near.near), (near.nodes_chunk, near.active)
+        self._run(solver, press.fastest, *around, grid.nodes, motion, self._speed)
+        step = CAUTION * dt * float(self._speed.max())
         for number, s in enumerate(sets):
             solver.run_kernel(
                 touch.detect,
-                *(symbols, number == 0, dt, offset, motion, near.shift),
-                *(near.level, near.lowest, *place, s.start, grid.corner, grid.above, grid.nodes),
-                *(grid.scratch, s.half, s.x, s.v, s.m, s.touching, s.contact),
-                *(self._mass, self._some),
+                *(symbols, number == 0, self.way, step, dt, offset, motion, near.shift),
+                *(near.level, *place, s.start, grid.corner, grid.above, grid.nodes),
+                *(grid.scratch, s.half, s.x, s.m, s.due, s.contact, self._mass, self._some),
             )
+        self.way += step
         if not self._some.any():
             return
-        around = (near.nodes_chunk, near.active)
-        run = press.share.serial if solver.small else press.share
-        run(solver.shape, *around, near.below, self._some, self._mass, grid.nodes, self._part)
+        tiles = (near.below, self._some, self._mass)
+        self._run(solver, press.share, solver.shape, *around, *tiles, grid.nodes, self._part)
         for number, s in enumerate(sets):
             solver.run_kernel(
                 press.press,
                 *(symbols, number == 0, h, dt, *place, near.around, s.start, grid.corner),
-                *(s.half, s.x, s.m, s.touching, s.contact, self._some, self._part, grid.scratch),
+                *(s.half, s.x, s.m, s.due, s.contact, self._some, self._part, grid.scratch),
                 self._impulse,
             )
         tools = solver.tools
@@ -69,7 +76,7 @@ class Contact:
                 gone += solver.run_kernel(
                     press.move_out,
                     *(near.chunk, near.near, s.start, solver.grid.corner, s.x),
-                    *(s.touching, s.contact, self._some),
+                    *(s.due, s.contact, self._some),
                 )
         return gone
 
@@ -96,23 +103,33 @@ class Contact:
         corner, normal, _, _ = self.surface
         return corner.mean(axis=1) + self.offset, normal[:, FACE]
 
-    def _arranged(self, solver):
+    def forget(self, solver):
+        """Look again, when they come near, at the particles in blocks that are not."""
         near = self.near
-        if near.arrange(solver.grid, self.offset, solver.small):
-            tile = solver.grid.side**3
-            self._some = np.zeros(len(near.near), np.int64)
+        near.arrange(solver.grid, self.offset, solver.small)
+        tile = solver.grid.side**3
+        self._some = np.zeros(len(near.near), np.int64)
+        if len(self._mass) != len(near.near) * tile:
             self._mass = np.empty(len(near.near) * tile)
             self._impulse = np.empty((len(near.near) * tile, 3))
+        if len(self._part) != len(near.active) * NODES:
             self._part = np.empty(len(near.active) * NODES)
-        return near
+        is_near = np.zeros(len(solver.grid.keys), bool)
+        is_near[near.near] = True
+        for s in _free(solver):
+            far = np.flatnonzero(~np.repeat(is_near, np.diff(s.start)) & (s.due[: s.active] != 0))
+            s.due[far] = 0.0
+            s.contact[far] = 0.0
 
-    def is_near(self, solver, s, at):
-        """Return which of the particles `at` of a set are in blocks near the ground."""
-        near = self._arranged(solver).near
-        rows = np.zeros(len(s.row), bool)
-        for b in near:
-            rows[s.start[b] : s.start[b + 1]] = True
-        return rows[at]
+    def _arranged(self, solver):
+        """Return the blocks near the ground, which may have moved since the last sort."""
+        if self.near.is_old(solver.grid, self.offset):
+            self.forget(solver)
+        return self.near
+
+    @staticmethod
+    def _run(solver, kernel, *arguments):
+        (kernel.serial if solver.small else kernel)(*arguments)
 
 
 class ContactAsMPMGeomechanics(Contact):
@@ -125,8 +142,8 @@ class ContactAsMPMGeomechanics(Contact):
             solver.run_kernel(
                 touch_legacy.impel,
                 *(self.symbols, self.ground, h, solver.time_step, solver.motion.after),
-                *(near.level, near.lowest, near.chunk, near.near, s.start, grid.corner, grid.above),
-                *(grid.nodes, grid.scratch, s.half, s.x, s.v, s.m, s.touching, s.contact),
+                *(near.level, near.chunk, near.near, s.start, grid.corner, grid.above),
+                *(grid.nodes, grid.scratch, s.half, s.x, s.v, s.m, s.due, s.contact),
                 self._some,
             )
 

@@ -7,6 +7,8 @@ node longer than the tile of the grid, so that a part of a cell has room.
 Distances of a block of nodes are computed when first needed, and kept.
 """
 
+from math import floor
+
 import numpy as np
 from numba import prange
 
@@ -15,12 +17,10 @@ from mpmgeo.numerics.jit import blockwise, inlined
 from mpmgeo.numerics.simd import LANES, axpy, lane, load, pack4, splat
 from mpmgeo.state.grid import CHUNKS, NODES, SIDE, corners_of, cut, keys_of
 
-STARTS = SIDE + 1  # places along an axis where a particle's stencil may begin in a tile
-
 
 @blockwise
-def assemble(near, begin, at, reach, known, S, level, lowest):
-    """Write the tiles of the blocks `near`, and the lowest distance under every stencil.
+def assemble(near, begin, at, reach, known, S, level):
+    """Write the tiles of the blocks `near`.
 
     `begin` (blocks, 3): first node of a tile, `at` (blocks, reach³): rows of `known` that it needs.
     """
@@ -36,20 +36,6 @@ def assemble(near, begin, at, reach, known, S, level, lowest):
                         block = at[b, (I // SIDE * reach + J // SIDE) * reach + K // SIDE]
                         inner = (I % SIDE * SIDE + J % SIDE) * SIDE + K % SIDE
                         level[((s * row + i) * row + j) * row + k] = known[block, inner]
-            for i in range(STARTS):
-                for j in range(STARTS):
-                    for k in range(STARTS):
-                        low = FAR
-                        for n in range(S * S * S):
-                            I, J, K = i + n // (S * S), j + n // S % S, k + n % S
-                            low = min(low, level[((s * row + I) * row + J) * row + K])
-                        lowest[((s * STARTS + i) * STARTS + j) * STARTS + k] = low
-
-
-@inlined
-def first_of(first):
-    """Return the place in a list of all stencils of the one that begins at a node of a tile."""
-    return (int(lane(first, 0)) * STARTS + int(lane(first, 1))) * STARTS + int(lane(first, 2))
 
 
 @inlined
@@ -90,7 +76,7 @@ def tile_origin(mesh, corner, b, shift):
 class NearGround:
     """Which blocks of a grid are near the ground, and the distances under them.
 
-    near (k,): owner blocks; chunk: bounds of their chunks; level, lowest: see `assemble`; active
+    near (k,): owner blocks; chunk: bounds of their chunks; level: their tiles; active
     (a,): blocks of nodes under their tiles; around (k, ·), below (a, ·): as the grid's above and
     below, but with places in `active` and `near`.
     """
@@ -105,14 +91,18 @@ class NearGround:
         self._keys = np.empty(0, np.int64)  # blocks whose distances are known, ascending
         self._known = np.empty((0, NODES))
 
-    def arrange(self, grid, offset, serial):
-        """Follow the blocks of the grid, and the ground that has moved by `offset` (3,) [m].
+    def is_old(self, grid, offset):
+        """Tell whether the grid or the ground have changed since this was arranged."""
+        return grid.keys is not self._owners or self._shift(offset) != self.shift
 
-        Returns whether anything changed.
-        """
-        shift = tuple(int(i) for i in np.floor(-np.asarray(offset) / self.cell))
-        if grid.keys is self._owners and shift == self.shift:
-            return False
+    def _shift(self, offset):
+        return tuple(floor(-u / h) for u, h in zip(offset, self.cell, strict=True))
+
+    def arrange(self, grid, offset, serial):
+        """Follow the blocks of the grid, and the ground that has moved by `offset` (3,) [m]."""
+        if not self.is_old(grid, offset):
+            return
+        shift = self._shift(offset)
         self._owners, self.shift = grid.keys, shift
         begin = grid.corner * SIDE + np.array(shift)
         reach = (SIDE + self.width + SIDE - 2) // SIDE + 1
@@ -122,18 +112,16 @@ class NearGround:
         is_near = np.abs(self._known).min(axis=1, initial=FAR) <= self.band
         near = np.flatnonzero(is_near[at].any(axis=1)) if len(at) else np.empty(0, np.int64)
         row, S = SIDE + self.width, self.width
-        level, lowest = np.empty(len(near) * row**3), np.empty(len(near) * STARTS**3)
+        level = np.empty(len(near) * row**3)
         run = assemble.serial if serial else assemble
-        run(near, begin, at, reach, self._known, S, level, lowest)
-        self._keep_low(grid, near, level, lowest)
-        return True
+        run(near, begin, at, reach, self._known, S, level)
+        self._keep_low(grid, near, level.reshape(len(near), row**3))
 
-    def _keep_low(self, grid, near, level, lowest):
+    def _keep_low(self, grid, near, level):
         """Keep the blocks in which a particle can be within reach of the ground."""
-        level, lowest = level.reshape(-1, (SIDE + self.width) ** 3), lowest.reshape(-1, STARTS**3)
-        low = lowest.min(axis=1, initial=FAR) <= self.reach
+        low = level.min(axis=1, initial=FAR) <= self.reach
         self.near = near[low]
-        self.level, self.lowest = np.append(level[low], np.zeros(LANES)), lowest[low].ravel()
+        self.level = np.append(level[low], np.zeros(LANES))
         self.chunk = cut(np.arange(len(self.near) + 1))
         self.active = np.unique(grid.above[self.near])
         self.nodes_chunk = cut(np.arange(len(self.active) + 1))

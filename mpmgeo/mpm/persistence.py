@@ -26,7 +26,7 @@ def state_of(solver) -> Snapshot:
     if solver.base is not None:
         facts |= {"base_velocity": solver.base.velocity, "base_ended": bool(solver.base.ended)}
     if solver.contact is not None:
-        facts["ground_offset"] = solver.contact.offset
+        facts |= {"ground_offset": solver.contact.offset, "ground_way": solver.contact.way}
     return Snapshot(arrays, facts)
 
 
@@ -48,6 +48,7 @@ def take_over(solver, state: Snapshot) -> None:
             _take_over_base(solver, facts)
         if solver.contact is not None:
             solver.contact.offset = tuple(facts["ground_offset"])
+            solver.contact.way = facts["ground_way"]
     except KeyError as error:
         raise ValueError(f"the snapshot lacks {error.args[0]}, which the case needs") from None
     if arrays:

@@ -6,7 +6,7 @@ from numba import prange
 from mpmgeo.boundaries.planes import constrain
 from mpmgeo.mpm.grid_update import is_bounded
 from mpmgeo.mpm.tile import block_bounds, block_origin, in_block, locate
-from mpmgeo.mpm.touch import NORMAL, PUSH, TANGENT, put
+from mpmgeo.mpm.touch import NORMAL, PUSH, TANGENT, TOUCHING, put
 from mpmgeo.numerics.jit import blockwise, inlined
 from mpmgeo.numerics.simd import (
     LANES,
@@ -24,6 +24,20 @@ from mpmgeo.numerics.simd import (
 )
 from mpmgeo.shapes.shape import width
 from mpmgeo.state.grid import NODES, SIDE
+
+
+@blockwise
+def fastest(chunk, active, nodes, motion, speed):
+    """Write the greatest speed of nodes relative to the ground, for every chunk of blocks."""
+    for c in prange(len(chunk) - 1):
+        most = 0.0
+        for a in range(chunk[c], chunk[c + 1]):
+            for n in range(active[a] * NODES, (active[a] + 1) * NODES):
+                u = load(nodes, n * LANES)
+                x, y, z = lane(u, 0) - motion[0], lane(u, 1) - motion[1], lane(u, 2) - motion[2]
+                if lane(u, 6) > 0.0:
+                    most = max(most, x * x + y * y + z * z)
+        speed[c] = most**0.5
 
 
 @blockwise
@@ -88,7 +102,7 @@ def collect_part(tile, n0, row, wx, wy, wz):
 
 @blockwise
 def press(
-    shape, mesh, contact, first, h, dt, chunk, near, around, start, corner, half, x, m, touching,
+    shape, mesh, contact, first, h, dt, chunk, near, around, start, corner, half, x, m, due,
     forces, some, part, scratch, impulse,
 ):  # fmt: skip
     """Add the impulses of the touching particles to the tiles, leave their forces."""
@@ -105,7 +119,7 @@ def press(
                 impulse[s * size : (s + 1) * size] = 0.0
             origin = block_origin(mesh, corner, b)
             for p in range(start[b], start[b + 1]):
-                if touching[p] == 0:
+                if due[p] != TOUCHING:
                     continue
                 at, wx, wy, wz = locate(shape, mesh, origin, half, x, p)
                 at //= LANES
@@ -197,7 +211,7 @@ def sum_impulses(impulse, below, some, a, row, reach, sums):
 
 
 @blockwise
-def move_out(shape, mesh, chunk, near, start, corner, x, touching, forces, some):
+def move_out(shape, mesh, chunk, near, start, corner, x, due, forces, some):
     """Move overlapping particles out of the ground; return how many are outside their block."""
     gone = 0
     for c in prange(len(chunk) - 1):
@@ -208,7 +222,7 @@ def move_out(shape, mesh, chunk, near, start, corner, x, touching, forces, some)
             origin = block_origin(mesh, corner, b)
             low, high = block_bounds(shape, mesh, corner, b)
             for p in range(start[b], start[b + 1]):
-                if touching[p] == 0:
+                if due[p] != TOUCHING:
                     continue
                 ux, uy, uz = forces[p, PUSH], forces[p, PUSH + 1], forces[p, PUSH + 2]
                 X = load_row(x, p) + pack4(ux, uy, uz, 0.0)

@@ -139,6 +139,8 @@ class Solver:
     def _sort(self):
         left = sort(self.grid, self.sets, self.small)
         self.gone = 0
+        if self.contact is not None:
+            self.contact.forget(self)
         for s, count in zip(self.sets, left, strict=True):
             if not count:
                 continue

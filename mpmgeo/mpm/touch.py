@@ -13,12 +13,14 @@ nodes know the force, as they know any other, particles get it as acceleration, 
 momentum is balanced. What still overlaps is moved out along n.
 
 The impulses stand for the force J/h on the particle, h the step of velocities.
+
+A particle with a gap need not be looked at until the nodes near the ground have moved so far.
 """
 
 import numpy as np
 from numba import prange
 
-from mpmgeo.mpm.ground import STARTS, first_of, level_at, tile_origin
+from mpmgeo.mpm.ground import level_at, tile_origin
 from mpmgeo.mpm.tile import block_origin, collect_value, copy_tile, half_size, in_block, locate
 from mpmgeo.numerics.jit import blockwise, inlined
 from mpmgeo.numerics.simd import LANES, along, lane, load_row, pack4, truncate
@@ -26,6 +28,7 @@ from mpmgeo.shapes.shape import stencil, width
 from mpmgeo.state.grid import SIDE
 
 NORMAL, TANGENT, PUSH = 0, 3, 6  # columns of a particle's contact: two forces, one displacement
+TOUCHING = -1.0  # what stands for the way of a particle in contact
 EVEN = 0.1  # |∇d| below which opposite surfaces are so near that there is no normal
 
 
@@ -43,32 +46,15 @@ def put(a, p, column, factor, x, y, z):
 
 
 @inlined
-def bounds(mesh, contact, half, v, motion, dt, p):
-    """Return how far from touching particle p may be, and the distance that goes with it [m].
-
-    From its own velocity, before that of the nodes is gathered.
-    """
-    lx, ly, lz = extents(mesh, half, p)
-    ux, uy, uz = v[p, 0] - motion[0], v[p, 1] - motion[1], v[p, 2] - motion[2]
-    slack = 2.0 * dt * (ux * ux + uy * uy + uz * uz) ** 0.5 + 0.01 * (lx + ly + lz)
-    return slack, min(contact.D, max(lx, ly, lz) + slack)
-
-
-@inlined
-def first_node(shape, mesh, origin, offset, x, p):
-    """Return where particle p is in its tile of distances, in cells, and its first node there."""
+def level_of(shape, mesh, origin, offset, half, level, s, x, p):
+    """Return the distance of particle p that it gathers and its gradient, in tile s of `level`."""
+    S = width(shape)
+    row = SIDE + S
     X = load_row(x, p)
     if offset is not None:
         X = X - pack4(offset[0], offset[1], offset[2], 0.0)
     g = in_block(mesh, origin, X)
-    return g, min(max(truncate(g - 0.5 * (width(shape) - 2)), 0.0), 1.0 * SIDE)
-
-
-@inlined
-def level_of(shape, mesh, half, level, s, g, first, p):
-    """Return the distance of particle p that it gathers and its gradient, in tile s of `level`."""
-    S = width(shape)
-    row = SIDE + S
+    first = min(max(truncate(g - 0.5 * (S - 2)), 0.0), 1.0 * SIDE)
     w = stencil(shape, g - first - 0.5 * (S - 1), half_size(half, p))
     n = (lane(first, 0) * row + lane(first, 1)) * row + lane(first, 2)
     d, gx, gy, gz = level_at(
@@ -80,44 +66,19 @@ def level_of(shape, mesh, half, level, s, g, first, p):
 @inlined
 def gap_of(mesh, half, d, nx, ny, nz, q, p):
     """Return the gap of particle p [m] with the normal n, from its distance d of slope q."""
-    lx, ly, lz = extents(mesh, half, p)
-    ex, ey, ez = nx * lx, ny * ly, nz * lz
+    l = half_size(half, p)
+    ex, ey, ez = nx * lane(l, 0) * mesh.hx, ny * lane(l, 1) * mesh.hy, nz * lane(l, 2) * mesh.hz
     return (d - (ex * ex + ey * ey + ez * ez) ** 0.5) / q
-
-
-@inlined
-def candidates(
-    shape, mesh, contact, ground, offset, motion, dt, lowest, s, first, last, half, x, v,
-    touching, forces, chosen,
-):  # fmt: skip
-    """List the particles from `first` to `last` that may touch; return how many they are.
-
-    Two bounds that cost little: nobody moves by more than a cell in a step, or by more than its
-    own velocity lets expect.
-    """
-    count = 0
-    nearby = 1.5 * max(mesh.hx, mesh.hy, mesh.hz)
-    for p in range(first, last):
-        if touching[p] != 0:
-            touching[p] = 0
-            forces[p] = 0.0
-        _, node = first_node(shape, mesh, ground, offset, x, p)
-        low = lowest[np.uintp(s * STARTS**3 + first_of(node))]
-        if low <= nearby:
-            _, bound = bounds(mesh, contact, half, v, motion, dt, p)
-            if low <= bound:
-                chosen[count] = p
-                count += 1
-    return count
 
 
 @blockwise
 def detect(
-    shape, mesh, contact, first, dt, offset, motion, shift, level, lowest, chunk, near, start,
-    corner, above, nodes, scratch, half, x, v, m, touching, forces, mass, some,
+    shape, mesh, contact, first, way, step, dt, offset, motion, shift, level, chunk, near, start,
+    corner, above, nodes, scratch, half, x, m, due, forces, mass, some,
 ):  # fmt: skip
     """Find the particles that touch, and add their mass to the tiles; `first` empties these.
 
+    `way`, `step`: how far nodes near the ground have moved at most so far, and will in this step;
     `offset`, `motion`: displacement, None for none, and velocity of the ground. `forces` get the
     velocities to take away along and across the normal, and the displacement out of the ground;
     `some`: whether anything in a block touches.
@@ -126,45 +87,41 @@ def detect(
     size = row * row * row
     for c in prange(len(chunk) - 1):
         tile = scratch[c * size * LANES : (c + 1) * size * LANES]
-        most = 0
         for s in range(chunk[c], chunk[c + 1]):
-            most = max(most, start[near[s] + 1] - start[near[s]])
-            some[s] = 0 if first else some[s]
-        chosen = np.empty(most, np.int64)
-        for s in range(chunk[c], chunk[c + 1]):
+            if first:
+                some[s] = 0
             b = near[s]
-            ground = tile_origin(mesh, corner, b, shift)
-            count = candidates(
-                shape, mesh, contact, ground, offset, motion, dt, lowest, s, start[b],
-                start[b + 1], half, x, v, touching, forces, chosen,
-            )  # fmt: skip
-            if count == 0:
-                continue
-            copy_tile(nodes, above, b, row, tile)
-            if some[s] == 0:
-                mass[s * size : (s + 1) * size] = 0.0
-            origin = block_origin(mesh, corner, b)
-            for i in range(count):
-                p = chosen[i]
-                slack, _ = bounds(mesh, contact, half, v, motion, dt, p)
-                g, node = first_node(shape, mesh, ground, offset, x, p)
-                d, nx, ny, nz = level_of(shape, mesh, half, level, s, g, node, p)
+            is_copied = False
+            origin, ground = block_origin(mesh, corner, b), tile_origin(mesh, corner, b, shift)
+            for p in range(start[b], start[b + 1]):
+                if due[p] > way + step:
+                    continue
+                if due[p] == TOUCHING:
+                    forces[p] = 0.0
+                d, nx, ny, nz = level_of(shape, mesh, ground, offset, half, level, s, x, p)
                 q = (nx * nx + ny * ny + nz * nz) ** 0.5
                 nx, ny, nz = nx / q, ny / q, nz / q
                 gap = gap_of(mesh, half, d, nx, ny, nz, q, p)
-                if abs(d) <= contact.D and q > EVEN and gap <= slack / q:
-                    touching[p] = meet(
+                due[p] = way + max(gap, -d - contact.D, 0.0)
+                if abs(d) <= contact.D and q > EVEN and gap <= step:
+                    if not is_copied:
+                        copy_tile(nodes, above, b, row, tile)
+                        is_copied = True
+                        if some[s] == 0:
+                            mass[s * size : (s + 1) * size] = 0.0
+                    if meet(
                         shape, mesh, origin, half, motion, dt, s * size, tile, x, m, gap, nx, ny,
                         nz, forces, mass, p,
-                    )  # fmt: skip
-                    some[s] |= touching[p]
+                    ):  # fmt: skip
+                        due[p] = TOUCHING
+                        some[s] = 1
 
 
 @inlined
 def meet(
     shape, mesh, origin, half, motion, dt, first, tile, x, m, gap, nx, ny, nz, forces, mass, p
 ):
-    """Return 1 if particle p, at the ground, touches it, and leave what it wants; else 0."""
+    """Tell whether particle p, at the ground, touches it; if so, leave what it wants."""
     row = SIDE + width(shape) - 1
     at, wx, wy, wz = locate(shape, mesh, origin, half, x, p)
     u = collect_value(tile, at, row, wx, wy, wz)
@@ -172,7 +129,7 @@ def meet(
     speed = ux * nx + uy * ny + uz * nz
     wanted = max(-speed - max(gap, 0.0) / dt, 0.0)
     if not (wanted > 0.0 or gap < 0.0):
-        return 0
+        return False
     put(forces, p, NORMAL, wanted, nx, ny, nz)
     put(forces, p, TANGENT, 1.0, ux - speed * nx, uy - speed * ny, uz - speed * nz)
     put(forces, p, PUSH, max(-gap, 0.0), nx, ny, nz)
@@ -184,4 +141,4 @@ def meet(
                 n = n0 + (i * row + j) * row
                 for k in range(len(wx) // 2):
                     mass[np.uintp(n + k)] += w * wz[k]  # spares the test for a negative index
-    return 1
+    return True

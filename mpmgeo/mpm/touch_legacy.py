@@ -11,9 +11,9 @@ d: gathered distance. At the end particles whose middle was below the surface mo
 import numpy as np
 from numba import prange
 
-from mpmgeo.mpm.ground import STARTS, first_of, tile_origin
+from mpmgeo.mpm.ground import tile_origin
 from mpmgeo.mpm.tile import block_origin, collect_value, copy_tile, locate
-from mpmgeo.mpm.touch import NORMAL, PUSH, TANGENT, first_node, level_of, put
+from mpmgeo.mpm.touch import NORMAL, PUSH, TANGENT, TOUCHING, level_of, put
 from mpmgeo.numerics.jit import blockwise
 from mpmgeo.numerics.simd import LANES, lane
 from mpmgeo.numerics.triangle_tree import DEPTH, FACE, closest, nearest
@@ -23,8 +23,8 @@ from mpmgeo.state.grid import SIDE
 
 @blockwise
 def impel(
-    shape, mesh, contact, ground, h, dt, motion, level, lowest, chunk, near, start, corner, above,
-    nodes, scratch, half, x, v, m, touching, forces, some,
+    shape, mesh, contact, ground, h, dt, motion, level, chunk, near, start, corner, above,
+    nodes, scratch, half, x, v, m, due, forces, some,
 ):  # fmt: skip
     """Change the velocities of particles near the ground, before they get the nodes' h a."""
     row = SIDE + width(shape) - 1
@@ -39,12 +39,9 @@ def impel(
             copy_tile(nodes, above, b, row, tile)
             origin, base = block_origin(mesh, corner, b), tile_origin(mesh, corner, b, (0, 0, 0))
             for p in range(start[b], start[b + 1]):
-                touching[p] = 0
+                due[p] = 0.0
                 forces[p] = 0.0
-                g, node = first_node(shape, mesh, base, None, x, p)
-                if not lowest[s * STARTS**3 + first_of(node)] < contact.D:
-                    continue
-                d, _, _, _ = level_of(shape, mesh, half, level, s, g, node, p)
+                d, _, _, _ = level_of(shape, mesh, base, None, half, level, s, x, p)
                 if not abs(d) < contact.D:
                     continue
                 t = nearest(ground, x[p, 0], x[p, 1], x[p, 2], t, waiting)
@@ -52,7 +49,7 @@ def impel(
                 qx, qy, qz = qx - x[p, 0], qy - x[p, 1], qz - x[p, 2]
                 if not qx * qx + qy * qy + qz * qz < contact.D**2:
                     continue
-                touching[p] = 1
+                due[p] = TOUCHING
                 at, wx, wy, wz = locate(shape, mesh, origin, half, x, p)
                 u = collect_value(tile, at, row, wx, wy, wz)
                 ux = v[p, 0] + h * lane(u, 3) - motion[0]

@@ -117,8 +117,7 @@ def _contact(first):
     def force(solver, s, at):
         if s.contact is None:
             return np.zeros((len(s.row[at]), 3))
-        near = solver.contact.is_near(solver, s, at) & (s.touching[at] != 0)
-        return np.where(near[:, None], s.contact[at, first : first + 3], 0.0)
+        return s.contact[at, first : first + 3]
 
     return force
 
@@ -127,9 +126,9 @@ _NORMAL_FORCE, _TANGENTIAL_FORCE = _contact(0), _contact(3)
 
 
 def _contact_flag(solver, s, at):
-    if s.touching is None:
+    if s.due is None:
         return np.zeros(len(s.row[at]), np.uint8)
-    return (solver.contact.is_near(solver, s, at) & (s.touching[at] != 0)).astype(np.uint8)
+    return (s.due[at] == -1).astype(np.uint8)
 
 
 def _strain(solver, s, at):

@@ -12,7 +12,7 @@ import numpy as np
 
 ARRAYS = (
     *("row", "x", "v", "m", "V", "stress", "half", "force", "state", "pressure", "strain"),
-    *("touching", "contact"),
+    *("due", "contact"),
 )
 """Fields of a set that are arrays, if they are there, with a row for each particle."""
 
@@ -45,7 +45,7 @@ class ParticleSet:
     state: np.ndarray | None = None  # (n, k) variables of the law
     pressure: np.ndarray | None = None  # (n,) pore pressure [Pa], compression positive
     strain: np.ndarray | None = None  # (n, 6) sum of the strain increments [-]
-    touching: np.ndarray | None = None  # (n,) 1 while in contact with the ground, else 0
+    due: np.ndarray | None = None  # (n,) when to look for contact, see `mpm.touch`; −1 in contact
     contact: np.ndarray | None = None  # (n, 9) normal, tangential force [N], displacement out [m]
     tool: int | None = None  # number of the prescribed velocity that the particles have
     start: np.ndarray = field(init=False)  # (blocks + 1,) first particle of each block
