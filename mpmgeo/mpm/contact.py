@@ -9,6 +9,7 @@ from mpmgeo.mpm.ground import NearGround
 from mpmgeo.numerics.triangle_tree import FACE
 from mpmgeo.state.grid import CHUNKS, NODES
 
+LIGHT = 1e-6  # share of a particle's mass
 CAUTION = 2.0  # for what contact does to the speeds, and for bends of the ground
 
 
@@ -29,6 +30,7 @@ class Contact:
         self._mass = self._part = np.empty(0)
         self._impulse = np.empty((0, 3))
         self._speed = np.zeros(CHUNKS)
+        self._lightest = None
 
     def act(self, solver, h):
         """Find what touches and change the nodes' velocities and accelerations."""
@@ -39,7 +41,9 @@ class Contact:
         offset = self.offset if any(self.offset) else None
         sets = _free(solver)
         place, around = (near.chunk, near.near), (near.nodes_chunk, near.active)
-        self._run(solver, press.fastest, *around, grid.nodes, motion, self._speed)
+        self._run(
+            solver, press.fastest, *around, grid.nodes, self._least(sets), motion, self._speed
+        )
         step = CAUTION * dt * float(self._speed.max())
         for number, s in enumerate(sets):
             solver.run_kernel(
@@ -126,6 +130,12 @@ class Contact:
         if self.near.is_old(solver.grid, self.offset):
             self.forget(solver)
         return self.near
+
+    def _least(self, sets):
+        """Return the mass [kg] from which on a node's speed says something about particles."""
+        if self._lightest is None:
+            self._lightest = min((float(s.m.min()) for s in sets), default=0.0)
+        return LIGHT * self._lightest
 
     @staticmethod
     def _run(solver, kernel, *arguments):

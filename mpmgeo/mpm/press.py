@@ -27,15 +27,18 @@ from mpmgeo.state.grid import NODES, SIDE
 
 
 @blockwise
-def fastest(chunk, active, nodes, motion, speed):
-    """Write the greatest speed of nodes relative to the ground, for every chunk of blocks."""
+def fastest(chunk, active, nodes, least, motion, speed):
+    """Write the greatest speed of nodes relative to the ground, for every chunk of blocks.
+
+    Nodes of less than the `least` mass do not count: particles hardly notice them.
+    """
     for c in prange(len(chunk) - 1):
         most = 0.0
         for a in range(chunk[c], chunk[c + 1]):
             for n in range(active[a] * NODES, (active[a] + 1) * NODES):
                 u = load(nodes, n * LANES)
                 x, y, z = lane(u, 0) - motion[0], lane(u, 1) - motion[1], lane(u, 2) - motion[2]
-                if lane(u, 6) > 0.0:
+                if lane(u, 6) > least:
                     most = max(most, x * x + y * y + z * z)
         speed[c] = most**0.5
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import meshes
 import pytest
+import terrains
 
 from mpmgeo.case.load import CaseError, load_case
 
@@ -85,6 +86,7 @@ AROUND = {
     "initial_pressure_material.*": {"pressure": 1, "material_id": 1},
     "pressure_force_box.*": BOX | {"pressure_force": [0, 0, 1]},
     "damping": {"type": "local"},
+    "terrain_contact": {"active": True, "stl_mesh": "terrain.stl"},
     "earthquake": {"active": True, "file": "record.csv"},
     "hydro_mechanical_coupling": {"enabled": True, "pore_pressure_field": "pressures.json"},
 }
@@ -98,6 +100,7 @@ def folder(tmp_path, monkeypatch):
     for name in ("list.json", "pressures.json"):
         (tmp_path / name).write_text(json.dumps([entry]))
     (tmp_path / "record.csv").write_text("t,x,y,z\n0,0,0,0\n1,0,0,0\n")
+    (tmp_path / "terrain.stl").write_text(terrains.text_of(terrains.plane()))
     group = {"soil": [("hexahedron", *meshes.box("hexahedron"))]}
     meshes.write(tmp_path / "soil.msh", meshes.mesh_of(group))
 

@@ -31,7 +31,6 @@ def test_neutral_values_change_nothing(case, keys):
     ("keys", "where"),
     [
         ({"n_phases": 2}, "n_phases: 2"),
-        ({"terrain_contact": {"active": True}}, "terrain_contact.active: true"),
     ],
 )
 def test_anything_else_is_not_supported_yet(case, keys, where):
