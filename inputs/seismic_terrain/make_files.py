@@ -1,5 +1,6 @@
 """Write ground.stl, level with a ramp on one side, and its motion, base_acceleration.csv."""
 
+from itertools import pairwise
 from pathlib import Path
 
 LEVEL, RAMP, LENGTH, WIDTH, RISE = 1.0, 4.0, 12.0, 6.0, 2.0  # m
@@ -11,7 +12,7 @@ def main():
     folder = Path(__file__).parent
     profile = [(0.0, LEVEL + RISE), (RAMP, LEVEL), (LENGTH, LEVEL)]
     lines = ["solid ground"]
-    for (x0, z0), (x1, z1) in zip(profile, profile[1:], strict=False):
+    for (x0, z0), (x1, z1) in pairwise(profile):
         a, b, c, d = (x0, 0.0, z0), (x1, 0.0, z1), (x1, WIDTH, z1), (x0, WIDTH, z0)
         for triangle in ((a, b, c), (a, c, d)):
             lines += ["facet normal 0 0 0", "  outer loop"]

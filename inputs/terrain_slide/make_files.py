@@ -1,4 +1,4 @@
-"""Write slope.stl and block.json: a plane that falls by 30 degrees, and particles that lie on it."""
+"""Write slope.stl and block.json: a plane that falls by 30 degrees, and particles on it."""
 
 import json
 from math import cos, radians, sin

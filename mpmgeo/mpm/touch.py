@@ -46,29 +46,29 @@ def put(a, p, column, factor, x, y, z):
 
 
 @inlined
-def level_of(shape, mesh, origin, offset, half, level, s, x, p):
-    """Return the distance of particle p that it gathers and its gradient, in tile s of `level`."""
+def locate_both(shape, mesh, origin, offset, half, x, p):
+    """Return where particle p's nodes begin in its tile of distances and in that of the grid, and
+    its stencils; the second place and the stencils are the grid's only if `offset` is None.
+    """
     S = width(shape)
-    row = SIDE + S
-    X = load_row(x, p)
+    X, last = load_row(x, p), SIDE - 1.0
     if offset is not None:
-        X = X - pack4(offset[0], offset[1], offset[2], 0.0)
+        X, last = X - pack4(offset[0], offset[1], offset[2], 0.0), 1.0 * SIDE
     g = in_block(mesh, origin, X)
-    first = min(max(truncate(g - 0.5 * (S - 2)), 0.0), 1.0 * SIDE)
+    first = min(max(truncate(g - 0.5 * (S - 2)), 0.0), last)
     w = stencil(shape, g - first - 0.5 * (S - 1), half_size(half, p))
-    n = (lane(first, 0) * row + lane(first, 1)) * row + lane(first, 2)
-    d, gx, gy, gz = level_at(
-        level, s * row * row * row + int(n), row, along(w, 0), along(w, 1), along(w, 2)
-    )
-    return d, gx * mesh.ix, gy * mesh.iy, gz * mesh.iz
+    i, j, k = int(lane(first, 0)), int(lane(first, 1)), int(lane(first, 2))
+    long, row = SIDE + S, SIDE + S - 1
+    at = ((i * row + j) * row + k) * LANES
+    return (i * long + j) * long + k, at, along(w, 0), along(w, 1), along(w, 2)
 
 
 @inlined
-def gap_of(mesh, half, d, nx, ny, nz, q, p):
-    """Return the gap of particle p [m] with the normal n, from its distance d of slope q."""
+def gap_of(mesh, half, d, nx, ny, nz, w, p):
+    """Return the gap of particle p [m] with the normal n, from its distance d of slope 1/w."""
     l = half_size(half, p)
     ex, ey, ez = nx * lane(l, 0) * mesh.hx, ny * lane(l, 1) * mesh.hy, nz * lane(l, 2) * mesh.hz
-    return (d - (ex * ex + ey * ey + ez * ez) ** 0.5) / q
+    return (d - (ex * ex + ey * ey + ez * ez) ** 0.5) * w
 
 
 @blockwise
@@ -84,7 +84,7 @@ def detect(
     `some`: whether anything in a block touches.
     """
     row = SIDE + width(shape) - 1
-    size = row * row * row
+    size, long, rate = row**3, (row + 1) ** 3, 1.0 / dt
     for c in prange(len(chunk) - 1):
         tile = scratch[c * size * LANES : (c + 1) * size * LANES]
         for s in range(chunk[c], chunk[c + 1]):
@@ -96,49 +96,59 @@ def detect(
             for p in range(start[b], start[b + 1]):
                 if due[p] > way + step:
                     continue
-                if due[p] == TOUCHING:
-                    forces[p] = 0.0
-                d, nx, ny, nz = level_of(shape, mesh, ground, offset, half, level, s, x, p)
-                q = (nx * nx + ny * ny + nz * nz) ** 0.5
-                nx, ny, nz = nx / q, ny / q, nz / q
-                gap = gap_of(mesh, half, d, nx, ny, nz, q, p)
-                due[p] = way + max(gap, -d - contact.D, 0.0)
-                if abs(d) <= contact.D and q > EVEN and gap <= step:
+                n, at, wx, wy, wz = locate_both(shape, mesh, ground, offset, half, x, p)
+                d, gx, gy, gz = level_at(level, s * long + n, row + 1, wx, wy, wz)
+                gx, gy, gz = gx * mesh.ix, gy * mesh.iy, gz * mesh.iz
+                square = gx * gx + gy * gy + gz * gz
+                w = 1.0 / square**0.5
+                nx, ny, nz = w * gx, w * gy, w * gz
+                gap = gap_of(mesh, half, d, nx, ny, nz, w, p)
+                was_touching, touches = due[p] == TOUCHING, False
+                if abs(d) <= contact.D and square > EVEN * EVEN and gap <= step:
                     if not is_copied:
                         copy_tile(nodes, above, b, row, tile)
                         is_copied = True
                         if some[s] == 0:
                             mass[s * size : (s + 1) * size] = 0.0
-                    if meet(
-                        shape, mesh, origin, half, motion, dt, s * size, tile, x, m, gap, nx, ny,
-                        nz, forces, mass, p,
-                    ):  # fmt: skip
-                        due[p] = TOUCHING
-                        some[s] = 1
+                    if offset is not None:
+                        at, wx, wy, wz = locate(shape, mesh, origin, half, x, p)
+                    u = collect_value(tile, at, row, wx, wy, wz)
+                    wanted = want(u, motion, gap, rate, nx, ny, nz, forces, p)
+                    touches = wanted > 0.0 or gap < 0.0
+                    if wanted > 0.0:
+                        add_mass(mass, s * size + at // LANES, row, wx, wy, wz, m[p])
+                due[p] = TOUCHING if touches else way + max(gap, -d - contact.D, 0.0)
+                if touches:
+                    some[s] = 1
+                elif was_touching:
+                    put(forces, p, NORMAL, 0.0, 0.0, 0.0, 0.0)
+                    put(forces, p, TANGENT, 0.0, 0.0, 0.0, 0.0)
+                    put(forces, p, PUSH, 0.0, 0.0, 0.0, 0.0)
 
 
 @inlined
-def meet(
-    shape, mesh, origin, half, motion, dt, first, tile, x, m, gap, nx, ny, nz, forces, mass, p
-):
-    """Tell whether particle p, at the ground, touches it; if so, leave what it wants."""
-    row = SIDE + width(shape) - 1
-    at, wx, wy, wz = locate(shape, mesh, origin, half, x, p)
-    u = collect_value(tile, at, row, wx, wy, wz)
+def want(u, motion, gap, rate, nx, ny, nz, forces, p):
+    """Return the speed that closes the gap too fast; if particle p touches, leave what it wants.
+
+    `u`: gathered record of nodes, `rate`: 1/Δt.
+    """
     ux, uy, uz = lane(u, 0) - motion[0], lane(u, 1) - motion[1], lane(u, 2) - motion[2]
     speed = ux * nx + uy * ny + uz * nz
-    wanted = max(-speed - max(gap, 0.0) / dt, 0.0)
-    if not (wanted > 0.0 or gap < 0.0):
-        return False
-    put(forces, p, NORMAL, wanted, nx, ny, nz)
-    put(forces, p, TANGENT, 1.0, ux - speed * nx, uy - speed * ny, uz - speed * nz)
-    put(forces, p, PUSH, max(-gap, 0.0), nx, ny, nz)
-    if wanted > 0.0:
-        n0 = first + at // LANES
-        for i in range(len(wx) // 2):
-            for j in range(len(wx) // 2):
-                w = wx[i] * wy[j] * m[p]
-                n = n0 + (i * row + j) * row
-                for k in range(len(wx) // 2):
-                    mass[np.uintp(n + k)] += w * wz[k]  # spares the test for a negative index
-    return True
+    wanted = max(-speed - max(gap, 0.0) * rate, 0.0)
+    if wanted > 0.0 or gap < 0.0:
+        put(forces, p, NORMAL, wanted, nx, ny, nz)
+        put(forces, p, TANGENT, 1.0, ux - speed * nx, uy - speed * ny, uz - speed * nz)
+        put(forces, p, PUSH, max(-gap, 0.0), nx, ny, nz)
+    return wanted
+
+
+@inlined
+def add_mass(mass, n0, row, wx, wy, wz, m):
+    """Add S m to the nodes from n0 on."""
+    S = len(wx) // 2
+    for i in range(S):
+        for j in range(S):
+            w = wx[i] * wy[j] * m
+            n = n0 + (i * row + j) * row
+            for k in range(S):
+                mass[np.uintp(n + k)] += w * wz[k]  # an index that cannot be negative costs less

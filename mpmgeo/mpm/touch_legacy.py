@@ -11,9 +11,9 @@ d: gathered distance. At the end particles whose middle was below the surface mo
 import numpy as np
 from numba import prange
 
-from mpmgeo.mpm.ground import tile_origin
-from mpmgeo.mpm.tile import block_origin, collect_value, copy_tile, locate
-from mpmgeo.mpm.touch import NORMAL, PUSH, TANGENT, TOUCHING, level_of, put
+from mpmgeo.mpm.ground import level_at, tile_origin
+from mpmgeo.mpm.tile import collect_value, copy_tile
+from mpmgeo.mpm.touch import NORMAL, PUSH, TANGENT, TOUCHING, locate_both, put
 from mpmgeo.numerics.jit import blockwise
 from mpmgeo.numerics.simd import LANES, lane
 from mpmgeo.numerics.triangle_tree import DEPTH, FACE, closest, nearest
@@ -37,11 +37,12 @@ def impel(
             b = near[s]
             some[s] = 1
             copy_tile(nodes, above, b, row, tile)
-            origin, base = block_origin(mesh, corner, b), tile_origin(mesh, corner, b, (0, 0, 0))
+            base = tile_origin(mesh, corner, b, (0, 0, 0))
             for p in range(start[b], start[b + 1]):
                 due[p] = 0.0
                 forces[p] = 0.0
-                d, _, _, _ = level_of(shape, mesh, base, None, half, level, s, x, p)
+                n, at, wx, wy, wz = locate_both(shape, mesh, base, None, half, x, p)
+                d, _, _, _ = level_at(level, s * (row + 1) ** 3 + n, row + 1, wx, wy, wz)
                 if not abs(d) < contact.D:
                     continue
                 t = nearest(ground, x[p, 0], x[p, 1], x[p, 2], t, waiting)
@@ -50,13 +51,15 @@ def impel(
                 if not qx * qx + qy * qy + qz * qz < contact.D**2:
                     continue
                 due[p] = TOUCHING
-                at, wx, wy, wz = locate(shape, mesh, origin, half, x, p)
                 u = collect_value(tile, at, row, wx, wy, wz)
                 ux = v[p, 0] + h * lane(u, 3) - motion[0]
                 uy = v[p, 1] + h * lane(u, 4) - motion[1]
                 uz = v[p, 2] + h * lane(u, 5) - motion[2]
-                n = ground.normal[t, FACE]
-                nx, ny, nz = n[0], n[1], n[2]
+                nx, ny, nz = (
+                    ground.normal[t, FACE, 0],
+                    ground.normal[t, FACE, 1],
+                    ground.normal[t, FACE, 2],
+                )
                 speed = ux * nx + uy * ny + uz * nz
                 put(forces, p, PUSH, max(-d, 0.0), nx, ny, nz)
                 if speed >= 0.0:

@@ -98,7 +98,7 @@ def test_a_few_particles_below_are_told(case):
     case["body"][0] |= {"point_p1": [1, 1, 0.5]}
     simulation = mpmgeo.Simulation(load_case(case))
     [message] = [m for m in simulation.messages if "below the surface" in m]
-    assert "32 of 96 particles begin below the surface" in message
+    assert "16 of 96 particles begin below the surface" in message
 
 
 def test_a_radius_of_nothing_is_the_usual_one(case):

@@ -27,7 +27,7 @@ def test_tiles_hold_the_distances_of_the_nodes_under_them(tmp_path, offset):
         assert level[s][known] == pytest.approx(exact[known], abs=1e-12)
         assert (np.abs(exact[~known]) > 2).all()
         # the particles of the block, as the ground sees them, have their stencils in the tile
-        assert (np.floor((np.array(offset) + near.shift)) == 0).all() or any(offset)
+        assert (np.floor(np.array(offset) + near.shift) == 0).all() or any(offset)
 
 
 def test_a_run_goes_on_bit_by_bit_after_a_snapshot(tmp_path):
