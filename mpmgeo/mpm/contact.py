@@ -34,9 +34,14 @@ class Contact:
 
     def act(self, solver, h):
         """Find what touches and change the nodes' velocities and accelerations."""
-        near, grid, symbols = self._arranged(solver), solver.grid, self.symbols
-        if not len(near.near):
-            return
+        self._arrange(solver)
+        if len(self.near.near) and self._detect(solver):
+            self._press(solver, h)
+        solver.clock.lap("contact")
+
+    def _detect(self, solver):
+        """Find what touches; return whether there is anything."""
+        near, grid, symbols = self.near, solver.grid, self.symbols
         dt, motion = solver.time_step, solver.motion.after
         offset = self.offset if any(self.offset) else None
         sets = _free(solver)
@@ -53,8 +58,13 @@ class Contact:
                 *(grid.scratch, s.half, s.x, s.m, s.due, s.contact, self._mass, self._some),
             )
         self.way += step
-        if not self._some.any():
-            return
+        return self._some.any()
+
+    def _press(self, solver, h):
+        """Give the nodes the impulses of what touches."""
+        near, grid, symbols = self.near, solver.grid, self.symbols
+        dt, sets = solver.time_step, _free(solver)
+        place, around = (near.chunk, near.near), (near.nodes_chunk, near.active)
         tiles = (near.below, self._some, self._mass)
         self._run(solver, press.share, solver.shape, *around, *tiles, grid.nodes, self._part)
         for number, s in enumerate(sets):
@@ -75,6 +85,7 @@ class Contact:
     def settle(self, solver):
         """Move overlapping particles out; return how many are then outside their block."""
         near, gone = self.near, 0
+        self.follow(solver.motion, solver.time_step)
         if self._some.any():
             for s in _free(solver):
                 gone += solver.run_kernel(
@@ -82,6 +93,7 @@ class Contact:
                     *(near.chunk, near.near, s.start, solver.grid.corner, s.x),
                     *(s.due, s.contact, self._some),
                 )
+        solver.clock.lap("contact")
         return gone
 
     def follow(self, motion, dt):
@@ -108,7 +120,7 @@ class Contact:
         return corner.mean(axis=1) + self.offset, normal[:, FACE]
 
     def forget(self, solver):
-        """Look again, when they come near, at the particles in blocks that are not."""
+        """Let particles that are not near the ground be looked at as soon as they come near."""
         near = self.near
         near.arrange(solver.grid, self.offset, solver.small)
         tile = solver.grid.side**3
@@ -124,12 +136,12 @@ class Contact:
             far = np.flatnonzero(~np.repeat(is_near, np.diff(s.start)) & (s.due[: s.active] != 0))
             s.due[far] = 0.0
             s.contact[far] = 0.0
+            s.due[s.active :] = s.contact[s.active :] = 0.0
 
-    def _arranged(self, solver):
-        """Return the blocks near the ground, which may have moved since the last sort."""
+    def _arrange(self, solver):
+        """Find the blocks near the ground if it has moved since the last sort."""
         if self.near.is_old(solver.grid, self.offset):
             self.forget(solver)
-        return self.near
 
     def _least(self, sets):
         """Return the mass [kg] from which on a node's speed says something about particles."""
@@ -147,7 +159,8 @@ class ContactAsMPMGeomechanics(Contact):
 
     def act(self, solver, h):
         """Change the velocities of particles that approach the ground."""
-        near, grid = self._arranged(solver), solver.grid
+        self._arrange(solver)
+        near, grid = self.near, solver.grid
         for s in _free(solver) if len(near.near) else ():
             solver.run_kernel(
                 touch_legacy.impel,
@@ -156,6 +169,7 @@ class ContactAsMPMGeomechanics(Contact):
                 *(grid.nodes, grid.scratch, s.half, s.x, s.v, s.m, s.due, s.contact),
                 self._some,
             )
+        solver.clock.lap("contact")
 
     def follow(self, motion, dt):
         """Do nothing: only the velocity of the ground counts."""

@@ -110,7 +110,7 @@ def press(
 ):  # fmt: skip
     """Add the impulses of the touching particles to the tiles, leave their forces."""
     row = SIDE + width(shape) - 1
-    size = row * row * row
+    size, w, rate = row * row * row, 1.0 / h, 1.0 / dt
     for c in prange(len(chunk) - 1):
         tile = scratch[c * size * LANES : (c + 1) * size * LANES]
         for s in range(chunk[c], chunk[c + 1]):
@@ -129,16 +129,16 @@ def press(
                 r = collect_part(tile, at, row, wx, wy, wz)
                 q = m[p] / r if r > 0.0 else 0.0
                 # the spring may not throw a particle out faster than to the surface in a step
-                k = min(contact.k * h, m[p] / dt)
+                k = min(contact.k * h, m[p] * rate)
                 jx = q * forces[p, NORMAL] + k * forces[p, PUSH]
                 jy = q * forces[p, NORMAL + 1] + k * forces[p, PUSH + 1]
                 jz = q * forces[p, NORMAL + 2] + k * forces[p, PUSH + 2]
                 tx, ty, tz = forces[p, TANGENT], forces[p, TANGENT + 1], forces[p, TANGENT + 2]
-                most = contact.μ * (jx * jx + jy * jy + jz * jz) ** 0.5
-                t = q * (tx * tx + ty * ty + tz * tz) ** 0.5
-                q = -q * most / t if t > most else -q
-                put(forces, p, NORMAL, 1.0 / h, jx, jy, jz)
-                put(forces, p, TANGENT, q / h, tx, ty, tz)
+                most = contact.μ * contact.μ * (jx * jx + jy * jy + jz * jz)
+                t = q * q * (tx * tx + ty * ty + tz * tz)
+                q = -q * (most / t) ** 0.5 if t > most else -q
+                put(forces, p, NORMAL, w, jx, jy, jz)
+                put(forces, p, TANGENT, w * q, tx, ty, tz)
                 J = pack4(jx + q * tx, jy + q * ty, jz + q * tz, 0.0)
                 add_impulse(impulse, s * size + at, row, wx, wy, wz, J)
 

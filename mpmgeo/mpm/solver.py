@@ -106,8 +106,6 @@ class Solver:
         self.scheme(self, h)
         if self.tools is not None:
             self.tools.hold(self.sets)
-        if self.contact is not None:
-            self.contact.follow(self.motion, self.time_step)
         self.steps += 1
         self.time += self.time_step
         if self.settles:
@@ -234,7 +232,6 @@ class Solver:
         self.clock.lap("grid update")
         if self.contact is not None and h > 0.0:
             self.contact.act(self, h)
-            self.clock.lap("contact")
 
     def _measure(self, arguments):
         tools = 0 if self.tools is None else len(self.tools.given)
@@ -274,7 +271,6 @@ class Solver:
         self.clock.lap("gather")
         if self.contact is not None:
             self.gone += self.contact.settle(self)
-            self.clock.lap("contact")
 
     def remap(self, h):
         """Change velocities by h times the acceleration, put the new momentum into the tiles."""
