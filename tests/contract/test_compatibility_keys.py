@@ -6,6 +6,7 @@ from pathlib import Path
 
 import meshes
 import pytest
+import terrains
 
 from mpmgeo.case.load import CaseError, load_case
 from mpmgeo.simulation import Simulation
@@ -93,6 +94,7 @@ AROUND = {
     "initial_pressure_material.*": {"pressure": 1, "material_id": 1},
     "pressure_force_box.*": BOX | {"pressure_force": [0, 0, 1]},
     "damping": {"type": "local"},
+    "terrain_contact": {"active": True, "stl_mesh": "terrain.stl"},
     "earthquake": {"active": True, "file": "record.csv"},
     "hydro_mechanical_coupling": {"enabled": True, "pore_pressure_field": "pressures.json"},
 }
@@ -109,6 +111,10 @@ ERRORS = {
     "materials.elastic.density": [0],
     "materials.elastic.young": ["2e6"],
     "materials.elastic.poisson": [0.5, 0.6],
+    "materials.elastic.density_fluid": [0],
+    "materials.elastic.porosity": [0],
+    "materials.elastic.bulk_fluid": [0],
+    "materials.elastic.hydraulic_conductivity": [[0, 0, 0]],
     "materials.mohr-coulomb.softening": ["linear"],
     "body.cuboid.type": ["cone"],
     "body.cuboid.active": ["yes"],
@@ -156,6 +162,7 @@ def folder(tmp_path, monkeypatch):
     for name in ("list.json", "pressures.json"):
         (tmp_path / name).write_text(json.dumps([entry]))
     (tmp_path / "record.csv").write_text("t,x,y,z\n0,0,0,0\n1,0,0,0\n")
+    (tmp_path / "terrain.stl").write_text(terrains.text_of(terrains.plane()))
     group = {"soil": [("hexahedron", *meshes.box("hexahedron"))]}
     meshes.write(tmp_path / "soil.msh", meshes.mesh_of(group))
 
@@ -224,8 +231,9 @@ def test_what_the_table_promises_is_tried(word, table):
 
 @pytest.mark.parametrize(("key", "value"), entries(ERRORS))
 def test_error_of_a_row(folder, key, value):
+    phases = {"n_phases": 2} if key.rpartition(".")[2] in WATER else {}
     with pytest.raises(CaseError) as error:
-        load_case(case_with(key, value))
+        load_case(case_with(key, value) | phases)
     name = key.rpartition(".")[2] if "softening" not in key else "softening"
     assert any(name in problem for problem in error.value.problems)
 

@@ -6,7 +6,8 @@ from assembly import RUBBER, assemble, by_row, nodes, planes
 from models import Counting
 
 from mpmgeo.boundaries.planes import BASE
-from mpmgeo.mpm.solver import SMALL, Unsound
+from mpmgeo.mpm.incidents import Unsound
+from mpmgeo.mpm.solver import SMALL
 from mpmgeo.mpm.tools import Tools
 from mpmgeo.shapes import SHAPES
 
