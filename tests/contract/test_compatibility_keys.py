@@ -134,6 +134,8 @@ ERRORS = {
     "prescribed_pressure_box.*.point_p1": [None],
     "initial_pressure_material.*.pressure": [None],
     "damping.value": [-0.1],
+    "terrain_contact.stl_mesh": [None, "none.stl", "list.json"],
+    "terrain_contact.friction": [-0.1],
     "earthquake.file": ["none.csv", "list.json"],
     "hydro_mechanical_coupling.type": ["two_way"],
     "hydro_mechanical_coupling.pore_pressure_field": ["none.json", "record.csv"],
@@ -144,6 +146,7 @@ WARNINGS = {
     "materials.elastic.id": [1],
     "earthquake.active": [None],
     "earthquake.header": [True],
+    "terrain_contact.active": [None],
     "hydro_mechanical_coupling.enabled": [None],
     "results.material_point_results": [["stres"]],
 }
