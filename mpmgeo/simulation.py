@@ -9,7 +9,7 @@ import numba
 import numpy as np
 
 from mpmgeo.case.build import build, critical_time_step
-from mpmgeo.mpm.solver import Unsound
+from mpmgeo.mpm.incidents import Unsound
 from mpmgeo.naming import PLANES
 from mpmgeo.output.final_stress import FinalStress
 from mpmgeo.output.histories import Histories, histories_of

@@ -1,5 +1,6 @@
 """Draw the pictures of the manual, most of them from runs of the cases that ship."""
 
+import runpy
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -7,6 +8,7 @@ import matplotlib
 import matplotlib.pyplot as plt
 import numpy as np
 import pyvista
+from matplotlib.collections import PatchCollection
 
 import mpmgeo
 
@@ -14,6 +16,7 @@ matplotlib.use("agg")
 
 HERE = Path(__file__).parent
 INPUTS = HERE.parents[1] / "inputs"
+EXAMPLES = HERE.parents[1] / "examples"
 BAR = {"color": "black", "fmt": "%.3g", "title_font_size": 24, "label_font_size": 20}
 SURFACE = {"ambient": 0.35, "diffuse": 0.75, "show_edges": True, "edge_opacity": 0.25}
 
@@ -129,6 +132,48 @@ def moving_base(folder):
     figure.savefig(HERE / "moving_base.png", dpi=130)
 
 
+def column_collapse(folder):
+    """The heap of bars at rest, what moved in it, and the lines of the experiment."""
+    simulation = run("column_collapse", folder)
+    position = simulation.field("position")
+    moved = np.linalg.norm(simulation.field("displacement"), axis=1) > 0.001
+    figure, axes = plt.subplots(figsize=(9, 2.5), layout="constrained")
+    for chosen, colour, label in (
+        (moved, "#e8b04a", "moved by more than 1 mm"),
+        (~moved, "#5b7aa8", "moved by less"),
+    ):
+        axes.plot(*position[chosen][:, [0, 2]].T, ".", markersize=1.6, color=colour, label=label)
+    for name, style in (("free_surface", "o-"), ("failure_line", "^-")):
+        line = np.loadtxt(INPUTS / "column_collapse" / f"{name}.csv", delimiter=",", skiprows=1).T
+        label = f"experiment: {name.replace('_', ' ')}"
+        axes.plot(*line, style, color="black", markersize=4, linewidth=1, label=label)
+    axes.add_patch(plt.Rectangle((0, 0), 0.2, 0.1, fill=False, linestyle=":"))
+    axes.set(aspect="equal", xlim=(0, 0.55), ylim=(0, 0.11), xlabel="x [m]", ylabel="z [m]")
+    axes.legend(loc="upper right", frameon=False, markerscale=1.5, fontsize=9)
+    figure.savefig(HERE / "column_collapse.png", dpi=130)
+
+
+def dam_break():
+    """Water of the dam break at four instants, and its front and height beside the experiment."""
+    example = runpy.run_path(EXAMPLES / "06_dam_break.py")
+    simulation = mpmgeo.Simulation(mpmgeo.load_case(INPUTS / "dam_break" / "case.json"))
+    figure = example["plot"](example["found"])
+    figure.savefig(HERE / "dam_break.png", dpi=110)
+    size = simulation.solver.population.size[0] * 1e3
+    figure, axes = plt.subplots(1, 4, figsize=(9, 2.1), layout="constrained", sharey=True)
+    for T, axis in zip((0, 1, 2, 3), axes, strict=True):
+        simulation.run(until=T * np.sqrt(0.05715 / (2 * 9.81)))
+        x, _, z = 1e3 * simulation.field("position").T
+        speed = np.linalg.norm(simulation.field("velocity"), axis=1)
+        corners = np.column_stack([x - size[0] / 2, z - size[2] / 2])
+        squares = [plt.Rectangle(corner, size[0], size[2]) for corner in corners]
+        water = PatchCollection(squares, array=speed, cmap="viridis", clim=(0, 2))
+        axis.add_collection(water)
+        axis.set(title=f"T = {T}", xlim=(0, 240), ylim=(0, 120), aspect="equal", xlabel="x [mm]")
+    figure.colorbar(water, ax=axes, label="speed [m/s]")
+    figure.savefig(HERE / "dam_break_water.png", dpi=110)
+
+
 def tile():
     """Blocks of nodes, the tile of one of them, and the nodes of one particle (GIMP)."""
     figure, axes = plt.subplots(figsize=(7.6, 4.2), layout="constrained")
@@ -166,6 +211,7 @@ def _square(corner, side, **style):
 
 if __name__ == "__main__":
     tile()
-    for picture in (cantilever, boussinesq, moving_base):
+    dam_break()
+    for picture in (cantilever, boussinesq, moving_base, column_collapse):
         with TemporaryDirectory() as folder:
             picture(Path(folder))

@@ -69,16 +69,15 @@ def serve(arguments) -> int:
     from mpmgeo.run.progress import Compilation
 
     try:
-        configurations, remarks = read_configurations(arguments.config)
+        reading = read_configurations(arguments.config)
     except ValueError as error:
         _say("error", error)
         return 2
-    for remark in remarks:
-        if arguments.log or "absent" not in remark:
-            _say("note", remark)
+    for remark in (*reading.remarks, *(reading.absences if arguments.log else ())):
+        _say("note", remark)
     timings = []
     with Compilation(lambda: _say("note", COMPILING)):
-        for configuration in configurations:
+        for configuration in reading.configurations:
             found = [*_run(configuration, arguments.repeats)]
             _print_table(found)
             timings += found

@@ -2,8 +2,10 @@
 
 import json
 from dataclasses import dataclass, replace
+from difflib import get_close_matches
 from itertools import product
 from pathlib import Path
+from typing import NamedTuple
 
 from mpmgeo.parameters import Counts, Vector
 
@@ -69,12 +71,29 @@ UNREAD = {
 }
 """Keys without effect, and why."""
 
+EMPTY = {
+    ("interpolation", "NodalMass_nParticles"),
+    ("interpolation", "NodalInternalForce_nParticles"),
+}
+"""Kernels without keys of their own, which the file names all the same."""
+
+MATRIX = {("parameters", "particles"), ("parameters", "threads")}
+"""Keys of a matrix of runs."""
+
 POSITIVE = {"particles", "threads", "cell", "cells", "density", "young", "strain_step", "spin_step"}
 WHOLE = {"particles", "threads", "cells", "seed"}
 
 
-def read_configurations(path: Path | str | None) -> tuple[list[Configuration], list[str]]:
-    """Return the configurations of a file, and remarks on keys that are absent or have no effect.
+class Reading(NamedTuple):
+    """Configurations, remarks on keys without effect or meaning, and on those that are absent."""
+
+    configurations: list[Configuration]
+    remarks: list[str]
+    absences: list[str]
+
+
+def read_configurations(path: Path | str | None) -> Reading:
+    """Return the configurations of a file, and remarks on its keys.
 
     A file with `parameters` asks for every pair of its `particles` and `threads`; of `None` the
     file of the usual name counts if it exists, else the defaults. Raises ValueError with path and
@@ -86,7 +105,8 @@ def read_configurations(path: Path | str | None) -> tuple[list[Configuration], l
     remarks = [
         f"{'.'.join(keys)}: no effect, {why}" for keys, why in UNREAD.items() if _get(tree, keys)[0]
     ]
-    values = {}
+    remarks += _unknown(tree, ())
+    values, absences = {}, []
     for keys, name in KEYS.items():
         is_there, value = _get(tree, keys)
         if is_there and _is_short(value, name):
@@ -94,12 +114,14 @@ def read_configurations(path: Path | str | None) -> tuple[list[Configuration], l
         if is_there:
             values[name] = _value(name, value, ".".join(keys))
         else:
-            remarks.append(f"{'.'.join(keys)}: absent, {getattr(Configuration, name)} is used")
+            default = getattr(Configuration, name)
+            absences.append(f"{'.'.join(keys)}: absent, {default} is used")
     if "parameters" not in tree:
-        return [Configuration(**values)], remarks
+        return Reading([Configuration(**values)], remarks, absences)
     base = Configuration(**{"cells": MATRIX_CELLS, **values})
     pairs = product(*(_series(tree["parameters"], name) for name in ("particles", "threads")))
-    return [replace(base, particles=n, threads=t) for n, t in pairs], remarks
+    matrix = [replace(base, particles=n, threads=t) for n, t in pairs]
+    return Reading(matrix, remarks, absences)
 
 
 def _tree(path):
@@ -110,6 +132,24 @@ def _tree(path):
     if not isinstance(tree, dict):
         raise ValueError(f"{path}: a configuration is a JSON object {{ … }}")
     return tree
+
+
+def _unknown(tree, above):
+    """Return a remark for each key that nobody knows, with the nearest one that is known."""
+    known = {".".join(keys) for keys in (*KEYS, *UNREAD, *MATRIX)}
+    remarks = []
+    for key, value in tree.items():
+        keys = (*above, key)
+        path = ".".join(keys)
+        if path in known or key == "comment":
+            continue
+        if isinstance(value, dict) and any(name.startswith(f"{path}.") for name in known):
+            remarks += _unknown(value, keys)
+        elif keys not in EMPTY:
+            near = get_close_matches(path, known, n=1)
+            hint = f'; did you mean "{near[0]}"?' if near else ""
+            remarks.append(f"{path}: no such key, it has no effect{hint}")
+    return remarks
 
 
 def _get(tree, keys):

@@ -30,16 +30,20 @@ def _changed(velocity, acceleration, h):
 
 
 class BaseMotion:
-    """The base follows a record: all its nodes move with its velocity, until the record ends."""
+    """The base follows a record: all its nodes move with its velocity, until the record ends.
 
-    def __init__(self, record):
+    `is_plane`: whether the base is the lowest plane, not a terrain.
+    """
+
+    def __init__(self, record, is_plane=True):
         self.record = record
+        self.is_plane = is_plane
         self.velocity = ZERO
         self.ended = False
 
     def planes(self, planes: Planes) -> Planes:
-        """Return the planes with the lowest one as base."""
-        return planes._replace(z0=BASE)
+        """Return the planes with the lowest one as base, if it is."""
+        return planes._replace(z0=BASE) if self.is_plane else planes
 
     def advance(self, t, h) -> Motion:
         """Return the motion in the step from time t [s] on, where velocities change by h a."""
@@ -65,13 +69,14 @@ class BaseMotionAsMPMGeomechanics(BaseMotion):
     planes are fixed.
     """
 
-    def __init__(self, record, remaps):
-        super().__init__(record)
+    def __init__(self, record, remaps, is_plane=True):
+        super().__init__(record, is_plane)
         self.remaps = remaps
 
     def planes(self, planes: Planes) -> Planes:
         """Return sliding planes on a base."""
-        return Planes(SLIDING, SLIDING, BASE, SLIDING, SLIDING, SLIDING, upper_wins=True)
+        lowest = BASE if self.is_plane else SLIDING
+        return Planes(SLIDING, SLIDING, lowest, SLIDING, SLIDING, SLIDING, upper_wins=True)
 
     def advance(self, t, h) -> Motion:
         """Return the motion in the step from time t [s] on, where velocities change by h a."""
@@ -84,5 +89,5 @@ class BaseMotionAsMPMGeomechanics(BaseMotion):
         return Motion(self.velocity, self.velocity, acceleration, self.remaps)
 
     def planes_after(self, planes: Planes) -> Planes:
-        """Return planes that are all fixed."""
-        return Planes(*[FIXED] * 6, upper_wins=False)
+        """Return planes that are all fixed, if one of them was the base."""
+        return Planes(*[FIXED] * 6, upper_wins=False) if self.is_plane else planes

@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from mpmgeo.numerics.jit import inlined
 from mpmgeo.parameters import parameter
+from mpmgeo.state.sorting import Walls
 
 KINDS = ("free", "sliding", "fixed")
 FREE, SLIDING, FIXED, BASE = range(4)
@@ -50,6 +51,11 @@ class Planes(NamedTuple):
     def of(cls, conditions: BoundaryConditions):
         """Return the symbols of the boundary conditions of a case."""
         return cls(*(KINDS.index(kind) for kind in conditions.kinds().values()), upper_wins=False)
+
+    @property
+    def walls(self) -> Walls:
+        """Return the planes that hold still; a base moves, and particles with it."""
+        return Walls(*(kind in (SLIDING, FIXED) for kind in self[:6]))
 
 
 @inlined

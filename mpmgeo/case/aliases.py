@@ -67,6 +67,7 @@ def rename(tree, report):
                 _rename_one(alias, path, node, report)
     _flatten_field_lists(tree, report)
     _drop_automatic(tree)
+    _drop_threshold(tree, report)
     _truncate_print(tree, report)
     _raise_material(tree, report)
     _take_material_id(tree, report)
@@ -124,6 +125,15 @@ def _drop_automatic(tree):
         value = tree.get(key)
         if value == 0 and not isinstance(value, bool):
             del tree[key]
+
+
+def _drop_threshold(tree, report):
+    """Search for contact in the usual radius where none, or less, is given."""
+    for path, terrain in places(tree, ("terrain_contact",)):
+        value = terrain.get("distance_threshold")
+        if isinstance(value, int | float) and not isinstance(value, bool) and value <= 0:
+            del terrain["distance_threshold"]
+            report.note((*path, "distance_threshold"), f"{value} stands for the usual radius")
 
 
 def _truncate_print(tree, report):

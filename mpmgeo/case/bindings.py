@@ -1,8 +1,14 @@
-"""What loads bind to particles before a run: prescribed velocities, pore pressures of a file."""
+"""What acts on particles of a case: prescribed velocities, pore pressures of a file, a terrain."""
 
 import numpy as np
 
+from mpmgeo.boundaries.distance import Ground
+from mpmgeo.mpm.contact import Contact, ContactAsMPMGeomechanics
 from mpmgeo.mpm.tools import Tools
+
+RIM = 0.01  # cells by which a point may be beyond the border of a terrain
+MARGIN = 4  # cells around the mesh in which distances are needed
+SAMPLE = 20_000  # particles that are looked at before the run, at least
 
 
 def bind_tools(case, population, velocity):
@@ -55,6 +61,71 @@ def bind_pressure(case, position, notes):
             f"{_shown(position[dry[0]])}"
         )
     return found.pressure
+
+
+def bind_terrain(case, mesh, width, population, notes):
+    """Return the contact of a case with its terrain, None without.
+
+    Raises ValueError if the surface misses the mesh, or most particles begin below it.
+    """
+    terrain = case.terrain_contact
+    if terrain is None:
+        return None
+    notes += terrain.surface.notes
+    legacy = case.compatibility is not None
+    surface = terrain_in_mesh(case, legacy)
+    if not len(surface.corner):
+        low, high = terrain.surface.corner.min(axis=(0, 1)), terrain.surface.corner.max(axis=(0, 1))
+        raise ValueError(
+            f"{terrain.stl_mesh}: no triangle in the mesh, {_shown(case.mesh.origin)} to "
+            f"{_shown(case.mesh.upper)}; the surface reaches from {_shown(low)} to {_shown(high)}"
+        )
+    cell = sum(case.mesh.cells_dimension) / 3
+    symbols = terrain.symbols(cell)
+    around = surface if legacy else _meeting(case, terrain.surface, symbols.D + MARGIN * cell)
+    box = (case.mesh.origin, case.mesh.upper)
+    ground = Ground.of(around, *box, RIM * cell, by_plane=legacy)
+    kind = ContactAsMPMGeomechanics if legacy else Contact
+    contact = kind(symbols, surface, ground, mesh, width)
+    _look_below(terrain, contact, population, legacy, notes)
+    return contact
+
+
+def terrain_in_mesh(case, legacy):
+    """Return the part of the terrain that can be touched: all triangles whose box meets the mesh.
+
+    As in MPM-Geomechanics, only those with a corner inside.
+    """
+    surface = case.terrain_contact.surface
+    if legacy:
+        low, high = np.array(case.mesh.origin), np.array(case.mesh.upper)
+        inside = ((surface.corner >= low) & (surface.corner <= high)).all(axis=2).any(axis=1)
+        return surface.part(inside)
+    return _meeting(case, surface, 0.0)
+
+
+def _meeting(case, surface, margin):
+    """Return the triangles whose box comes nearer than `margin` [m] to the mesh."""
+    low, high = np.array(case.mesh.origin) - margin, np.array(case.mesh.upper) + margin
+    lowest, highest = surface.corner.min(axis=1), surface.corner.max(axis=1)
+    return surface.part(((lowest <= high) & (highest >= low)).all(axis=1))
+
+
+def _look_below(terrain, contact, population, legacy, notes):
+    """Note, or refuse, that particles begin below the ground."""
+    sample = slice(None, None, max(1, len(population.position) // SAMPLE))
+    position, size = population.position[sample], population.size[sample]
+    below = np.flatnonzero(contact.distance(position) < -0.5 * size.max(axis=1))
+    if not len(below):
+        return
+    message = (
+        f"{terrain.stl_mesh}: {len(below)} of {len(position)} particles begin below the surface, "
+        f"one at {_shown(position[below[0]])}; the outside of a triangle is where its corners run "
+        "anticlockwise"
+    )
+    if 2 * len(below) > len(position) and not legacy:
+        raise ValueError(f"{message}: is the surface inside out?")
+    notes.append(message)
 
 
 def _shown(position):

@@ -7,7 +7,7 @@ import numpy as np
 
 from mpmgeo.boundaries.base_motion import BaseMotion, BaseMotionAsMPMGeomechanics
 from mpmgeo.boundaries.planes import Planes
-from mpmgeo.case.bindings import bind_pressure, bind_tools
+from mpmgeo.case.bindings import bind_pressure, bind_terrain, bind_tools
 from mpmgeo.case.populate import populate
 from mpmgeo.case.saturate import saturate
 from mpmgeo.damping import KineticDamping, LocalDamping
@@ -42,7 +42,8 @@ def build(case):
     damping = case.damping.value if isinstance(case.damping, LocalDamping) else 0.0
     delayed = legacy and case.stress_scheme_update != "USF"
     tools, tool = bind_tools(case, population, velocity)
-    sets = _sets(case, population, velocity, law, tool, notes)
+    contact = bind_terrain(case, mesh, shape.width, population, notes)
+    sets = _sets(case, population, velocity, law, tool, contact is not None, notes)
     if case.n_phases == 2:
         saturate(case, sets, population, law)
     if case.load_state:
@@ -62,10 +63,12 @@ def build(case):
         point_loads=_point_loads(case),
         local=damping if damping and not delayed else None,
         delayed=damping if damping and delayed else None,
+        leaky=legacy,
         settles=isinstance(case.damping, KineticDamping),
         cutoff=0.0 if legacy else TOUCH**shape.edge * lightest,
         tools=tools,
         fluid=_pore_fluid(case),
+        contact=contact,
         measured=_measured(case),
     )
     return solver, notes
@@ -110,7 +113,7 @@ def _measured(case):
     return tuple(sorted({*planes, *(entry.every for entry in case.prescribed_velocity)}))
 
 
-def _sets(case, population, velocity, laws, tool, notes):
+def _sets(case, population, velocity, laws, tool, touches, notes):
     """Return a particle set for each material in use, and apart for each tool."""
     cell = np.array(case.mesh.cells_dimension)
     pressure = bind_pressure(case, population.position, notes)
@@ -136,6 +139,8 @@ def _sets(case, population, velocity, laws, tool, notes):
                 state=np.zeros((len(rows), variables)) if variables else None,
                 pressure=None if pressure is None else pressure[rows],
                 strain=np.zeros((len(rows), 6)) if strained else None,
+                due=np.zeros(len(rows)) if touches else None,
+                contact=np.zeros((len(rows), 9)) if touches else None,
                 tool=int(number) if number >= 0 else None,
             )
         )
@@ -171,11 +176,12 @@ def _base(case, notes):
         return None
     record = earthquake.record()
     notes += record.warnings
+    is_plane = case.terrain_contact is None
     if case.compatibility is not None:
-        return BaseMotionAsMPMGeomechanics(record, case.stress_scheme_update == "MUSL")
-    if case.mesh.boundary_conditions.plane_Z0 is not None:
+        return BaseMotionAsMPMGeomechanics(record, case.stress_scheme_update == "MUSL", is_plane)
+    if is_plane and case.mesh.boundary_conditions.plane_Z0 is not None:
         notes.append("mesh.boundary_conditions.plane_Z0 gives way to the moving base")
-    return BaseMotion(record)
+    return BaseMotion(record, is_plane)
 
 
 def _point_loads(case):

@@ -16,12 +16,17 @@ MOST_STEPS = 1e12
 
 SHARE = "critical_time_step_multiplier"
 
-FROM_FILES = (("prescribed_velocity",), ("hydro_mechanical_coupling",))
+FROM_FILES = (("prescribed_velocity",), ("hydro_mechanical_coupling",), ("terrain_contact",))
 """Places of parts with `complaints` about their files."""
 
 ONE_PHASE_ONLY = (
     ("stress_scheme_update", "USF", '"USF" is for one phase; accepted with two: "USL", "MUSL"'),
     ("compatibility", None, "two phases have no earlier form that is worth keeping; leave it out"),
+    (
+        "terrain_contact",
+        None,
+        "a terrain does not hold the pore fluid; leave one of them out",
+    ),
     ("hydro_mechanical_coupling", None, "pressures from a file and two phases exclude each other"),
 )
 """Top-level keys and values (None: any) that do not go with two phases, and why."""
@@ -174,7 +179,7 @@ def _check_names(tree, report):
 def _check_base(parts, report):
     """Report planes that are to have two velocities."""
     motion, taken = parts.get(("earthquake",)), {}
-    if motion is not None and motion.active:
+    if motion is not None and motion.active and parts.get(("terrain_contact",)) is None:
         taken["Z0"] = ("earthquake",)
     for path, part in parts.items():
         plane = getattr(part, "plane", None) if path[:1] == ("prescribed_velocity",) else None
@@ -203,10 +208,10 @@ def _note_idle(tree, report):
             report.note((key,), "has no effect with one phase")
     results = tree.get("results")
     results = results if isinstance(results, dict) else {}
-    for key, fields, why in (
-        ("material_point_results", () if two else FLUID_FIELDS, "exists with two phases only"),
-        ("stl_contact_mesh", TERRAIN_FIELDS, "exists with a terrain only"),
-    ):
+    dry = [("material_point_results", () if two else FLUID_FIELDS, "exists with two phases only")]
+    if not tree.get("terrain_contact"):
+        dry.append(("stl_contact_mesh", TERRAIN_FIELDS, "exists with a terrain only"))
+    for key, fields, why in dry:
         words = results.get(key)
         for index, word in enumerate(words if isinstance(words, list) else ()):
             if isinstance(word, str) and word in fields:

@@ -1,7 +1,6 @@
 """What the JSON Schema finds wrong in a case, in words that help to put it right."""
 
 from mpmgeo.case.aliases import FIELD_LISTS, OBSOLETE
-from mpmgeo.case.neutral import UNSUPPORTED
 from mpmgeo.case.report import nearest, shown
 from mpmgeo.case.schema import CONTAINERS, INTEGERS, case_schema
 
@@ -87,10 +86,7 @@ def _wrong(error, path, schema, report):
     near = nearest(value, error.schema.get("enum", ()))
     hint = f"; did you mean {shown(near)}?" if near else ""
     text = accepted(error.schema, is_limit=error.validator in LIMITS)
-    later = UNSUPPORTED.get(place)
-    if later and error.validator != "type" and (not later.values or value in later.values):
-        report.error(path, f"{shown(value)} is not supported yet ({later.part}); accepted: {text}")
-    elif place[-2:] in FIELD_ENTRIES and isinstance(value, str):
+    if place[-2:] in FIELD_ENTRIES and isinstance(value, str):
         report.warn(path, f"{shown(value)} is no field, ignored{hint or f'; known: {text}'}")
     else:
         if isinstance(value, str) and error.schema.get("type") in ("number", "integer"):

@@ -6,8 +6,8 @@ from pathlib import Path
 from mpmgeo.case.aliases import rename
 from mpmgeo.case.checks import check
 from mpmgeo.case.explain import validate
+from mpmgeo.case.inactive import drop_inactive
 from mpmgeo.case.kinds import Kind, declared, word_of
-from mpmgeo.case.neutral import drop_inactive
 from mpmgeo.case.report import CaseError, Report, shown
 from mpmgeo.case.schema import plain
 from mpmgeo.case.spec import Case

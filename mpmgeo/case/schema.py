@@ -4,7 +4,6 @@ from dataclasses import MISSING
 
 from mpmgeo.case.aliases import ALIASES, IGNORED
 from mpmgeo.case.kinds import declared, word_of
-from mpmgeo.case.neutral import NEUTRAL
 from mpmgeo.case.spec import LISTED, Case
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
@@ -81,8 +80,6 @@ def _object(cls, place, definitions):
             required.append(key)
     for key, text in IGNORED.get(place, {}).items():
         properties.setdefault(key, {"description": text})
-    for key, value in NEUTRAL.get(place, {}).items():
-        properties[key] = {"description": "Not supported yet: accepted while it is off", **value}
     spellings = _old_spellings(place, properties)
     result = {
         "type": "object",

@@ -12,6 +12,7 @@ from pathlib import Path
 
 from mpmgeo.bodies import BODIES
 from mpmgeo.boundaries.planes import BoundaryConditions
+from mpmgeo.boundaries.terrain import TerrainContact
 from mpmgeo.damping import DAMPINGS, NoDamping
 from mpmgeo.loads import (
     BaseAcceleration,
@@ -132,6 +133,16 @@ class Results:
         return _chosen(self.grid_nodal_results, GRID_FIELDS, without=("id",))
 
     @property
+    def terrain_fields(self) -> tuple[str, ...]:
+        """Return the keys of the terrain fields to write, in the order of the files."""
+        return _chosen(self.stl_contact_mesh, TERRAIN_FIELDS, without=())
+
+    @property
+    def terrain_once(self) -> bool:
+        """Return whether only the initial terrain file is written."""
+        return "none" in self.stl_contact_mesh
+
+    @property
     def particles_once(self) -> bool:
         """Return whether only the initial particle file is written."""
         return "none" in self.material_point_results
@@ -241,7 +252,10 @@ class Case:
     hydro_mechanical_coupling: HydroMechanicalCoupling | None = parameter(
         "Pore pressures from a file", default=None
     )
-    earthquake: BaseAcceleration | None = parameter("Motion of the base", default=None)
+    terrain_contact: TerrainContact | None = parameter("Contact with a terrain", default=None)
+    earthquake: BaseAcceleration | None = parameter(
+        "Motion of the base: of the terrain if there is one, else of the lowest plane", default=None
+    )
     results: Results = parameter("What the run writes", default=Results())
 
     notes: tuple[str, ...] = field(default=(), kw_only=True, compare=False)

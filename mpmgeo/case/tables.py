@@ -11,7 +11,6 @@ from pathlib import Path
 from mpmgeo.case.aliases import ALIASES, IGNORED, OBSOLETE
 from mpmgeo.case.explain import accepted
 from mpmgeo.case.kinds import declared, word_of
-from mpmgeo.case.neutral import NEUTRAL
 from mpmgeo.case.schema import case_schema, definition_of, plain
 from mpmgeo.case.spec import Case
 from mpmgeo.output.fields import (
@@ -111,11 +110,6 @@ def _without_effect():
         (f"`{_dotted((*place, key))}`", text)
         for place, keys in IGNORED.items()
         for key, text in keys.items()
-    ]
-    rows += [
-        (f"`{_dotted((*place, key))}`", "Not supported yet; accepted while it is empty or off")
-        for place, keys in NEUTRAL.items()
-        for key in keys
     ]
     return "## Keys without effect\n" + _table(("key", "why"), rows)
 

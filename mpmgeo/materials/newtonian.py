@@ -3,7 +3,10 @@
     σ = (σm + κ tr(Δε)) I + 2μ (D − ⅓ tr(D) I),    D = Δε/Δt
 
 σm is the mean of the old stress: pressure accumulates, viscous stress does not, so that rotation
-changes nothing. There is no cavitation: the mean stress may become tensile.
+changes nothing. A fluid of tensile strength T opens voids of the volumetric strain θ where the mean
+stress would exceed it, and closes them before it bears pressure again:
+
+    t = σm + κ (θ + tr(Δε)),    σm → min(t, T),    θ → (t − min(t, T))/κ
 
 Source: Batchelor, An Introduction to Fluid Dynamics (1967), eq. (3.3.11).
 """
@@ -13,6 +16,7 @@ from math import sqrt
 from typing import ClassVar, NamedTuple
 
 from mpmgeo.materials.law import Law, update_stress
+from mpmgeo.numerics.jit import inlined
 from mpmgeo.parameters import parameter
 
 
@@ -23,6 +27,16 @@ class Symbols(NamedTuple):
     STATE = ()
 
 
+class Tearing(NamedTuple):
+    """A fluid of limited tensile strength T."""
+
+    κ: float
+    μ: float
+    T: float
+
+    STATE = ("void",)
+
+
 @dataclass(frozen=True)
 class Newtonian(Law):
     """Slightly compressible viscous fluid."""
@@ -31,11 +45,19 @@ class Newtonian(Law):
 
     viscosity: float = parameter("Dynamic viscosity", unit="Pa s", minimum=0, default=0.0)
     bulk: float = parameter("Bulk modulus", unit="Pa", above=0)
+    tensile: float | None = parameter(
+        "Largest tensile mean stress, beyond which voids open; absent: unlimited",
+        unit="Pa",
+        minimum=0,
+        default=None,
+    )
 
     @property
-    def symbols(self) -> Symbols:
+    def symbols(self) -> Symbols | Tearing:
         """Return what the kernels use."""
-        return Symbols(κ=self.bulk, μ=self.viscosity)
+        if self.tensile is None:
+            return Symbols(κ=self.bulk, μ=self.viscosity)
+        return Tearing(κ=self.bulk, μ=self.viscosity, T=self.tensile)
 
     def sound_speed(self) -> float:
         """Return the speed of the compression wave [m/s]."""
@@ -55,9 +77,23 @@ class Newtonian(Law):
 
 @update_stress.register(Symbols)
 def newtonian(law, stress, strain, state, dt):
+    mean = (stress[0] + stress[1] + stress[2]) / 3.0
+    mean += law.κ * (strain[0] + strain[1] + strain[2])
+    return with_viscous_stress(law.μ, mean, strain, dt)
+
+
+@update_stress.register(Tearing)
+def tearing(law, stress, strain, state, dt):
+    mean = (stress[0] + stress[1] + stress[2]) / 3.0
+    mean += law.κ * (state[0] + strain[0] + strain[1] + strain[2])
+    borne = min(mean, law.T)
+    return *with_viscous_stress(law.μ, borne, strain, dt), (mean - borne) / law.κ
+
+
+@inlined
+def with_viscous_stress(μ, mean, strain, dt):
+    """Return six components of stress: the mean one, and that of the deviator of the strain."""
     xx, yy, zz, xy, yz, xz = strain
-    tr = xx + yy + zz
-    p = (stress[0] + stress[1] + stress[2]) / 3.0 + law.κ * tr
-    q = 2.0 * law.μ / dt
-    p -= q * tr / 3.0
+    q = 2.0 * μ / dt
+    p = mean - q * (xx + yy + zz) / 3.0
     return p + q * xx, p + q * yy, p + q * zz, q * xy, q * yz, q * xz

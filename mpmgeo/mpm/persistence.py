@@ -6,7 +6,7 @@ takes it over goes on bit for bit as the first one would have done.
 
 import numpy as np
 
-from mpmgeo.mpm.solver import Departure
+from mpmgeo.mpm.incidents import Departure
 from mpmgeo.state.snapshot import Snapshot
 
 NUMBERS = ("time", "steps", "last_energy", "peak_energy", "gone")
@@ -25,6 +25,8 @@ def state_of(solver) -> Snapshot:
     facts = {name: getattr(solver, name) for name in NUMBERS}
     if solver.base is not None:
         facts |= {"base_velocity": solver.base.velocity, "base_ended": bool(solver.base.ended)}
+    if solver.contact is not None:
+        facts |= {"ground_offset": solver.contact.offset, "ground_way": solver.contact.way}
     return Snapshot(arrays, facts)
 
 
@@ -44,6 +46,9 @@ def take_over(solver, state: Snapshot) -> None:
             setattr(solver, name, facts[name])
         if solver.base is not None:
             _take_over_base(solver, facts)
+        if solver.contact is not None:
+            solver.contact.offset = tuple(facts["ground_offset"])
+            solver.contact.way = facts["ground_way"]
     except KeyError as error:
         raise ValueError(f"the snapshot lacks {error.args[0]}, which the case needs") from None
     if arrays:

@@ -69,6 +69,22 @@ def _compiled_state_of(law, state, p):
     return lambda law, state, p: to_fixed_tuple(state[p], count)
 
 
+def _keep_state(law, state, p, new):
+    """Put the law's variables, which follow the six stresses in `new`, back to particle p."""
+    if state is not None:
+        state[p] = new[6:]
+
+
+@overload(_keep_state, jit_options={"forceinline": True})
+def _compiled_keep_state(law, state, p, new):
+    # number by number: after a loop the compiler would count references, for every particle
+    numbers = range(len(law.instance_class.STATE))
+    lines = [f"    state[p, {n}] = new[{6 + n}]\n" for n in numbers]
+    scope = {}
+    exec("def keep(law, state, p, new):\n" + "".join(lines or ["    pass\n"]), scope)
+    return scope["keep"]
+
+
 @inlined
 def advance(law, rotation, strain, spin, V, stress, state, total, p, dt):
     """Update volume, stress and the law's variables of particle p for a strain increment.
@@ -85,6 +101,4 @@ def advance(law, rotation, strain, spin, V, stress, state, total, p, dt):
     new = update_stress(law, old, strain, _state_of(law, state, p), dt)
     for a in range(6):
         stress[p, a] = new[a]
-    if state is not None:
-        for a in range(state.shape[1]):
-            state[p, a] = new[6 + a]
+    _keep_state(law, state, p, new)

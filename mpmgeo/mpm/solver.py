@@ -9,6 +9,8 @@ import numpy as np
 from mpmgeo.boundaries.base_motion import STILL, BaseMotion
 from mpmgeo.boundaries.planes import Planes
 from mpmgeo.mpm import grid_update, reactions, transfer
+from mpmgeo.mpm.contact import Contact
+from mpmgeo.mpm.incidents import Departure, Unsound
 from mpmgeo.mpm.point_loads import PointLoads
 from mpmgeo.mpm.tools import Tools
 from mpmgeo.mpm.two_phase import PoreFluid
@@ -17,26 +19,9 @@ from mpmgeo.numerics.clock import Clock
 from mpmgeo.state.grid import Grid
 from mpmgeo.state.inspection import first_unsound, kinetic_energy
 from mpmgeo.state.particles import ParticleSet, Population
-from mpmgeo.state.sorting import sort
+from mpmgeo.state.sorting import OPEN, Walls, sort
 
 SMALL = 4096  # particles up to which threads cost more than they save
-
-
-class Departure(NamedTuple):
-    """Particles that left the mesh in one step."""
-
-    time: float  # [s]
-    rows: np.ndarray
-    position: np.ndarray  # (3,) of the first [m]
-
-
-class Unsound(Exception):
-    """A particle's state is NaN, infinite or faster than a cell in a step."""
-
-    def __init__(self, material, row, step, time, position, velocity, stress):
-        super().__init__(f"particle in row {row} diverged in step {step}")
-        self.material, self.row, self.step, self.time = material, row, step, time
-        self.position, self.velocity, self.stress = position, velocity, stress
 
 
 @dataclass
@@ -60,9 +45,11 @@ class Solver:
     local: float | None = None
     delayed: float | None = None
     settles: bool = False
+    leaky: bool = False  # whether particles may pass planes that hold, as in MPM-Geomechanics
     cutoff: float = 0.0  # [kg] nodal mass up to which forces do not move a node
     tools: Tools | None = None
     fluid: PoreFluid | None = None
+    contact: Contact | None = None
     measured: tuple[int, ...] = ()  # intervals of steps at which the reactions are measured
 
     time: float = 0.0
@@ -137,8 +124,10 @@ class Solver:
         raise Unsound(material, int(s.row[p]), self.steps, self.time, *state)
 
     def _sort(self):
-        left = sort(self.grid, self.sets, self.small)
+        left = sort(self.grid, self.sets, self.small, self._walls())
         self.gone = 0
+        if self.contact is not None:
+            self.contact.forget(self)
         for s, count in zip(self.sets, left, strict=True):
             if not count:
                 continue
@@ -150,6 +139,14 @@ class Solver:
             first = s.active + int(s.row[new].argmin())
             rows = np.sort(s.row[new])
             self.departures.append(Departure(self.time, rows, s.x[first].copy()))
+
+    def _walls(self):
+        """Return the planes that keep particles in; who begins outside the mesh stays there."""
+        if self.leaky or self.steps == 0:
+            return OPEN
+        walls = self.planes.walls
+        moved = [] if self.tools is None else filter(None, self.tools.planes)
+        return walls._replace(**{Walls._fields[axis + 3 * side]: False for axis, side in moved})
 
     def _settle(self):
         """Stop all particles when the kinetic energy has passed a peak (Cundall 1982)."""
@@ -200,15 +197,15 @@ class Solver:
 
     # The stages
 
-    def call(self, kernel, *arguments):
-        """Call a kernel for the solver's shape and mesh, without threads in a small scene."""
+    def run_kernel(self, kernel, *arguments):
+        """Run a kernel with shape and mesh before its arguments, in threads if it pays."""
         return (kernel.serial if self.small else kernel)(self.shape, self.grid.mesh, *arguments)
 
     def scatter(self, internal=True):
         """Fill the tiles with mass, momentum and external force, and the internal one if asked."""
         g = self.grid
         for number, s in enumerate(self.sets):
-            self.call(
+            self.run_kernel(
                 transfer.scatter,
                 *(number == 0, s.chunk, s.start, g.corner, s.half, s.x, s.v, s.m, s.V),
                 *((s.stress, s.pressure) if internal else (None, None)),
@@ -227,8 +224,10 @@ class Solver:
             *(g.chunk, g.active_corner, g.below, g.tiles, g.scratch, g.nodes),
         )
         self.measure(reactions.add_forces, arguments)
-        self.call(grid_update.update_momentum, *arguments)
+        self.run_kernel(grid_update.update_momentum, *arguments)
         self.clock.lap("grid update")
+        if self.contact is not None and h > 0.0:
+            self.contact.act(self, h)
 
     def measure(self, kernel, arguments):
         """Sum the forces of planes and tools with a kernel if this step is one of those wanted."""
@@ -236,7 +235,7 @@ class Solver:
             return
         tools = 0 if self.tools is None else len(self.tools.given)
         forces = np.zeros((len(self.grid.active), len(PLANES) + tools, 3))
-        self.call(kernel, *arguments, forces)
+        self.run_kernel(kernel, *arguments, forces)
         self.reactions = forces.sum(axis=0)
         self.clock.lap("reactions")
 
@@ -251,7 +250,7 @@ class Solver:
         """Make nodal velocities of the momentum in the tiles; base nodes move with the base."""
         g = self.grid
         velocity = self.motion.after if base == "after" else self.motion.before
-        self.call(
+        self.run_kernel(
             grid_update.update_velocity,
             *(self.planes, velocity, self.motion.drives, *self.driven(base)),
             *(g.chunk, g.active_corner, g.below, g.tiles, g.scratch, g.nodes),
@@ -262,19 +261,21 @@ class Solver:
         """Move the particles; change velocities by h times the acceleration unless h is None."""
         g = self.grid
         for s in self.sets:
-            self.gone += self.call(
+            self.gone += self.run_kernel(
                 transfer.gather,
                 *(s.law if stress else None, s.rotation, s.chunk, s.start, g.corner, g.above),
                 *(g.nodes, g.scratch, s.half, s.x, None if h is None else s.v, s.V, s.stress),
                 *(s.state, s.strain, self.time_step, 0.0 if h is None else h),
             )
         self.clock.lap("gather")
+        if self.contact is not None:
+            self.gone += self.contact.settle(self)
 
     def remap(self, h):
         """Change velocities by h times the acceleration, put the new momentum into the tiles."""
         g = self.grid
         for number, s in enumerate(self.sets):
-            self.call(
+            self.run_kernel(
                 transfer.remap,
                 *(number == 0, s.chunk, s.start, g.corner, g.above, g.nodes, g.scratch),
                 *(s.half, s.x, s.v, s.m, h, g.tiles),
@@ -285,7 +286,7 @@ class Solver:
         """Update stress with the nodal velocities, add the internal force to the tiles."""
         g = self.grid
         for s in self.sets:
-            self.call(
+            self.run_kernel(
                 transfer.strain_and_force,
                 *(s.law, s.rotation, s.chunk, s.start, g.corner, g.above, g.nodes, g.scratch),
                 *(s.half, s.x, s.V, s.stress, s.pressure, s.state, s.strain),

@@ -48,7 +48,7 @@ class PoreFluid:
         if self.smooth:
             self._share_pressures(s)
         for number, p in enumerate(s.sets):
-            s.call(
+            s.run_kernel(
                 fluid_transfer.scatter,
                 *(p.fluid, number == 0, p.chunk, p.start, grid.corner, p.half, p.x, p.mf, p.vf),
                 *(p.V, p.pf, p.pull, self.flow, self.pores),
@@ -59,13 +59,13 @@ class PoreFluid:
         """Give all particles of a cell the mean of their pressures, weighted by volume."""
         grid = s.grid
         for number, p in enumerate(s.sets):
-            s.call(
+            s.run_kernel(
                 fluid_transfer.sum_cells,
                 *(number == 0, p.chunk, p.start, grid.corner, p.x, p.V, p.pf, p.free, self.flow),
             )
-        s.call(fluid_grid.average, grid.chunk, grid.below, self.flow, self.scratch, self.flux)
+        s.run_kernel(fluid_grid.average, grid.chunk, grid.below, self.flow, self.scratch, self.flux)
         for p in s.sets:
-            s.call(
+            s.run_kernel(
                 fluid_transfer.share,
                 *(p.chunk, p.start, grid.corner, grid.above, self.flux, p.x, p.pf, p.free),
             )
@@ -83,14 +83,14 @@ class PoreFluid:
             *(grid.nodes, self.flux),
         )
         s.measure(fluid_grid.add_forces, arguments)
-        s.call(fluid_grid.update_momentum, *arguments)
+        s.run_kernel(fluid_grid.update_momentum, *arguments)
         s.clock.lap("grid update")
 
     def remap(self, s, h):
         """Change the fluid's velocities and put its new momentum into the tiles."""
         grid = s.grid
         for number, p in enumerate(s.sets):
-            s.call(
+            s.run_kernel(
                 transfer.remap,
                 *(number == 0, p.chunk, p.start, grid.corner, grid.above, self.flux, grid.scratch),
                 *(p.half, p.x, p.vf, p.mf, h, self.flow),
@@ -100,7 +100,7 @@ class PoreFluid:
     def update_velocity(self, s):
         """Make velocities of the momenta in the tiles; base nodes move as the base does now."""
         grid, motion = s.grid, s.motion
-        s.call(
+        s.run_kernel(
             fluid_grid.update_velocity,
             *(s.planes, self.walls, motion.after, motion.drives, *s.driven("after")),
             *(grid.chunk, grid.active_corner, grid.below, grid.tiles, self.flow, self.scratch),
@@ -112,7 +112,7 @@ class PoreFluid:
         """Update the pressures; change the fluid's velocities unless h is None."""
         grid = s.grid
         for p in s.sets:
-            s.call(
+            s.run_kernel(
                 fluid_transfer.gather,
                 *(p.fluid, p.chunk, p.start, grid.corner, grid.above, self.flux, grid.scratch),
                 *(p.half, p.x, None if h is None else p.vf, p.m, p.V, p.pf, p.free),

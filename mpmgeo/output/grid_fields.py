@@ -1,5 +1,7 @@
 """What the fields of the grid hold, and under which names files hold them."""
 
+from functools import cache
+
 import numpy as np
 
 _NAMES = {
@@ -26,15 +28,48 @@ def grid_arrays(solver, node_id, keys):
         number = index @ np.array([1, nodes[0], nodes[0] * nodes[1]])
         at = np.searchsorted(node_id, number.astype(np.uint64))
         mass[at], velocity[at] = records[:, 6], records[:, :3]
+    contact = solver.contact
     values = {
         "id": lambda: node_id.astype(np.uint64),
         "active": lambda: (mass > 0).astype(np.uint8),
         "mass": lambda: mass,
         "velocity": lambda: velocity,
         "volume": lambda: _volume(mesh, nodes, node_id),
+        "distance_levelset": lambda: np.zeros(len(node_id)),
+        "density_levelset": lambda: np.zeros(len(node_id)),
     }
-    absent = lambda: np.zeros(len(node_id))  # noqa: E731
-    return {_NAMES[key]: values.get(key, absent)() for key in keys}
+    if contact is not None:
+        distance = cache(lambda: contact.distance(_position(mesh, nodes, node_id)))
+        values["distance_levelset"] = distance
+        values["density_levelset"] = lambda: _density(solver, nodes, node_id)
+    arrays = {_NAMES[key]: values[key]() for key in keys}
+    if contact is not None and solver.base is not None:
+        near = 0.25 * (mesh.hx + mesh.hy + mesh.hz) / 3
+        arrays["Seismic Node"] = (np.abs(distance()) < near).astype(np.uint8)
+    return arrays
+
+
+def _position(mesh, nodes, node_id):
+    """Return the positions (n, 3) [m] of nodes."""
+    i, j, k = _index(nodes, node_id)
+    cell, origin = [mesh.hx, mesh.hy, mesh.hz], [mesh.ox, mesh.oy, mesh.oz]
+    return (np.stack([i, j, k], axis=-1) - 2) * cell + origin
+
+
+def _index(nodes, node_id):
+    number = node_id.astype(np.int64)
+    return number % nodes[0], number // nodes[0] % nodes[1], number // (nodes[0] * nodes[1])
+
+
+def _density(solver, nodes, node_id):
+    """Return the share of the nodes' volume that particles fill."""
+    density = solver.contact.density(solver).ravel()
+    index = solver.grid.indices().reshape(-1, 3) + 2
+    inside = (index >= 0).all(axis=1) & (index < nodes).all(axis=1) & (density > 0)
+    number = index[inside] @ np.array([1, nodes[0], nodes[0] * nodes[1]])
+    values = np.zeros(len(node_id))
+    values[np.searchsorted(node_id, number.astype(np.uint64))] = density[inside]
+    return values
 
 
 def _volume(mesh, nodes, node_id):

@@ -118,6 +118,32 @@ def _external_force(solver, s, at):
     return weight if s.force is None else weight + s.force[at]
 
 
+def _distance(solver, s, at):
+    if solver.contact is None:
+        return np.zeros(len(s.row[at]))
+    return solver.contact.distance(s.x[at])
+
+
+def _contact(first):
+    """Return the field of a contact force whose columns begin at `first`."""
+
+    def force(solver, s, at):
+        if s.contact is None:
+            return np.zeros((len(s.row[at]), 3))
+        return s.contact[at, first : first + 3]
+
+    return force
+
+
+_NORMAL_FORCE, _TANGENTIAL_FORCE = _contact(0), _contact(3)
+
+
+def _contact_flag(solver, s, at):
+    if s.due is None:
+        return np.zeros(len(s.row[at]), np.uint8)
+    return (s.due[at] == -1).astype(np.uint8)
+
+
 def _strain(solver, s, at):
     if s.strain is None:
         raise KeyError("strain: kept only if the results or a probe of the case ask for it")
@@ -145,7 +171,11 @@ _VALUES = {
     "pore_pressure": _pressure,
     "external_force": _external_force,
     "displacement": lambda solver, s, at: s.x[at] - solver.population.position[s.row[at]],
-    "particle_contact_flag": lambda solver, s, at: np.zeros(len(s.row[at]), np.uint8),
+    "distance_levelset": _distance,
+    "particle_contact_force": lambda *of: _NORMAL_FORCE(*of) + _TANGENTIAL_FORCE(*of),
+    "particle_contact_force_tangential": _TANGENTIAL_FORCE,
+    "particle_contact_force_normal": _NORMAL_FORCE,
+    "particle_contact_flag": _contact_flag,
     "strain": _strain,
     "deviatoric_strain": lambda *of: np.sqrt(2 / 3) * _size_of_deviator(_strain(*of)),
     "mean_stress": lambda solver, s, at: _mean(s.stress[at]),

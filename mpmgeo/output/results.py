@@ -7,6 +7,7 @@ from mpmgeo.output.particle_fields import particle_arrays
 from mpmgeo.output.pvd import Collection, remove_previous
 from mpmgeo.output.vtu import write_hexahedra, write_points
 
+TERRAIN = "centroid_points_stl_contact"
 MANY_CELLS = (
     10_000_000  # above this a grid file holds the touched blocks only, unless asked for all
 )
@@ -24,6 +25,7 @@ class ResultFiles:
         self.folder = folder
         self.particles = Collection(folder / "particles" / "particleTimeSerie.pvd")
         self.grid = Collection(folder / "grid" / "gridTimeSerie.pvd")
+        self.terrain = Collection(folder / TERRAIN / f"{TERRAIN}TimeSerie.pvd")
         self.written = None  # step of the last output
         self._cells = None
 
@@ -33,7 +35,7 @@ class ResultFiles:
         if simulation.goes_on:
             self._go_on(simulation, path)
             return
-        for collection in (self.particles, self.grid):
+        for collection in self._collections(simulation):
             _, left = remove_previous(collection.path)
             if left:
                 simulation.say(
@@ -43,10 +45,14 @@ class ResultFiles:
         self.energy = EnergySeries(path)
         self._write(simulation, first=True)
 
+    def _collections(self, simulation):
+        terrain = () if simulation.solver.contact is None else (self.terrain,)
+        return (self.particles, self.grid, *terrain)
+
     def _go_on(self, simulation, path):
         """Take up the files as they were when the run had come to this state."""
         is_due = simulation.steps % self.every == 0
-        for collection in (self.particles, self.grid):
+        for collection in self._collections(simulation):
             collection.take_up(simulation.label, is_due)
         self.energy = EnergySeries(path, earlier_rows(path, simulation.label, is_due))
         self.written = simulation.steps
@@ -67,6 +73,8 @@ class ResultFiles:
             self._write_particles(simulation, label)
         if first or not self.results.grid_once:
             self._write_grid(simulation, label)
+        if simulation.solver.contact is not None and (first or not self.results.terrain_once):
+            self._write_terrain(simulation, label)
         self.energy.add(label, simulation.output_energy())
         self.written = simulation.steps
 
@@ -86,6 +94,19 @@ class ResultFiles:
         write_hexahedra(path, cells.points, cells.connectivity, arrays, {"CellId": cells.cell_id})
         self.grid.add(label, path)
         self.grid.write()
+
+    def _write_terrain(self, simulation, label):
+        number = len(self.terrain.entries) + 1
+        path = self.terrain.path.parent / f"{TERRAIN}_{number}.vtu"
+        solver = simulation.solver
+        centre, normal = solver.contact.triangles()
+        values = {
+            "stl_density_levelset": lambda: solver.contact.density_at(solver, centre),
+            "stl_normal": lambda: normal,
+        }
+        write_points(path, centre, {key: values[key]() for key in self.results.terrain_fields})
+        self.terrain.add(label, path)
+        self.terrain.write()
 
     def _grid_cells(self, simulation):
         if self._cells is not None:

@@ -14,6 +14,7 @@ class Compilation(event.Listener):
 
     def __init__(self, tell):
         self.seconds = 0.0
+        self.clock = None  # whose stages the time is no part of
         self._tell = tell
         self._depth = 0
 
@@ -36,7 +37,10 @@ class Compilation(event.Listener):
         """Count the time of an outermost compilation; numba calls this."""
         self._depth -= 1
         if self._depth == 0:
-            self.seconds += perf_counter() - self._begin
+            seconds = perf_counter() - self._begin
+            self.seconds += seconds
+            if self.clock is not None:
+                self.clock.leave_out(seconds)
 
 
 class Progress:
@@ -50,6 +54,7 @@ class Progress:
 
     def begin(self, simulation):
         """Start the clock and, on a terminal, the bar."""
+        self.compilation.clock = simulation.solver.clock
         self._start = self._shown = perf_counter()
         self._first_step = None
         self._steps = 0
@@ -84,8 +89,8 @@ class Progress:
             self._news(simulation)
         now = perf_counter()
         if self._first_step is None:
-            # what follows is free of compilation
             self._first_step = self._shown = now
+            self._compiled = self.compilation.seconds
             self._steps, self._first_time = simulation.steps, simulation.time
             return
         if now - self._shown < (REFRESH if self.live else LINE):
@@ -95,7 +100,8 @@ class Progress:
 
     def _speed(self, simulation, now):
         done = (simulation.steps - self._steps) * simulation.solver.count
-        return done / max(now - self._first_step, 1e-9) / 1e6
+        compiled = self.compilation.seconds - self._compiled
+        return done / max(now - self._first_step - compiled, 1e-9) / 1e6
 
     def _show(self, simulation, speed):
         share = min(simulation.time / simulation.case.time, 1.0)

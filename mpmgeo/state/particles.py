@@ -13,6 +13,7 @@ import numpy as np
 ARRAYS = (
     *("row", "x", "v", "m", "V", "stress", "half", "force", "state", "pressure", "strain"),
     *("mf", "vf", "pf", "free", "pull"),
+    *("due", "contact"),
 )
 """Fields of a set that are arrays, if they are there, with a row for each particle."""
 
@@ -45,6 +46,8 @@ class ParticleSet:
     state: np.ndarray | None = None  # (n, k) variables of the law
     pressure: np.ndarray | None = None  # (n,) given pore pressure [Pa], compression positive
     strain: np.ndarray | None = None  # (n, 6) sum of the strain increments [-]
+    due: np.ndarray | None = None  # (n,) when to look for contact, see `mpm.touch`; −1 in contact
+    contact: np.ndarray | None = None  # (n, 9) normal, tangential force [N], displacement out [m]
     tool: int | None = None  # number of the prescribed velocity that the particles have
     fluid: object = None  # symbols of the pore fluid; with it m is the solid's mass
     mf: np.ndarray | None = None  # (n,) mass of the fluid [kg]

@@ -3,7 +3,12 @@
 When particles change blocks, the blocks' ranges shift a little. A particle whose place still lies
 in its block's new range stays; the others, in order, fill the places that are free. The order
 depends on nothing but the particles, so results are the same for any number of threads.
+
+A particle near a wall follows nodes that the wall does not hold, too, and may pass it by a little.
+It is put back before it is counted as outside the mesh.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 from numba import prange
@@ -11,9 +16,34 @@ from numba import prange
 from mpmgeo.numerics.jit import blockwise, compiled, inlined
 from mpmgeo.state.grid import KEY_BITS, KEY_SHIFT, cut
 
+INSET = 1e-9  # cells: how far from a wall that it passed a particle is put back
 FEW = 20_000  # particles up to which moving them costs less than waking threads
 OUTSIDE = -1
 UNKNOWN = -2  # UNKNOWN − key: the block with this key is not in the table
+
+
+class Walls(NamedTuple):
+    """Which planes of the mesh particles do not pass."""
+
+    x0: bool = False
+    y0: bool = False
+    z0: bool = False
+    xn: bool = False
+    yn: bool = False
+    zn: bool = False
+
+
+OPEN = Walls()
+
+
+@inlined
+def _between(x, origin, cell, cells, lower, upper):
+    """Return a coordinate, or a place just within the wall that it passed."""
+    if lower and x < origin:
+        return origin + INSET * cell
+    if upper and x > origin + cells * cell:
+        return origin + (cells - INSET) * cell
+    return x
 
 
 @inlined
@@ -38,15 +68,31 @@ def _index(keys, key):
     return low if low < len(keys) and keys[low] == key else UNKNOWN - key
 
 
+@inlined
+def _corners(mesh, reach, x, p):
+    """Return the block corner of a particle's first node; see `_corner`."""
+    i = _corner(x[p, 0], mesh.ox, mesh.ix, mesh.nx, reach)
+    j = _corner(x[p, 1], mesh.oy, mesh.iy, mesh.ny, reach)
+    k = _corner(x[p, 2], mesh.oz, mesh.iz, mesh.nz, reach)
+    return i, j, k
+
+
 @blockwise
-def locate(mesh, reach, chunk, start, keys, x, target):
-    """Write the block of each particle: its place in `keys`, OUTSIDE, or UNKNOWN − key."""
+def locate(mesh, walls, reach, chunk, start, keys, x, target):
+    """Write the block of each particle: its place in `keys`, OUTSIDE, or UNKNOWN − key.
+
+    Particles that passed one of the `walls` are put back.
+    """
     for c in prange(len(chunk) - 1):
         for b in range(chunk[c], chunk[c + 1]):
             for p in range(start[b], start[b + 1]):
-                i = _corner(x[p, 0], mesh.ox, mesh.ix, mesh.nx, reach)
-                j = _corner(x[p, 1], mesh.oy, mesh.iy, mesh.ny, reach)
-                k = _corner(x[p, 2], mesh.oz, mesh.iz, mesh.nz, reach)
+                i, j, k = _corners(mesh, reach, x, p)
+                if min(i, j, k) == -KEY_SHIFT:
+                    w = walls
+                    x[p, 0] = _between(x[p, 0], mesh.ox, mesh.hx, mesh.nx, w.x0, w.xn)
+                    x[p, 1] = _between(x[p, 1], mesh.oy, mesh.hy, mesh.ny, w.y0, w.yn)
+                    x[p, 2] = _between(x[p, 2], mesh.oz, mesh.hz, mesh.nz, w.z0, w.zn)
+                    i, j, k = _corners(mesh, reach, x, p)
                 if min(i, j, k) == -KEY_SHIFT:
                     target[p] = OUTSIDE
                     continue
@@ -125,8 +171,10 @@ def _add_blocks(grid, sets, targets):
     grid.cover(keys)
 
 
-def sort(grid, sets, serial):
+def sort(grid, sets, serial, walls=OPEN):
     """Sort all particle sets by block after some particle left its block.
+
+    `walls`: planes through which no particle leaves the mesh.
 
     Returns for each set how many particles left the mesh just now; they stand directly behind
     `start[-1]` from then on. The grid's blocks are renewed when particles reached new ones.
@@ -136,7 +184,7 @@ def sort(grid, sets, serial):
     for s in sets:
         target = np.empty(s.active, np.int64)
         kernel = locate.serial if serial else locate
-        kernel(grid.mesh, reach, s.chunk, s.start, grid.keys, s.x, target)
+        kernel(grid.mesh, walls, reach, s.chunk, s.start, grid.keys, s.x, target)
         targets.append(target)
     if any(len(t) and t.min() <= UNKNOWN for t in targets):
         _add_blocks(grid, sets, targets)

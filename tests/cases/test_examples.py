@@ -57,12 +57,28 @@ def slope_under_its_weight(example):
     assert example["crest_settlement_braked"] == pytest.approx(settlement, rel=0.01)
 
 
+def dam_break(example):
+    """The front is ahead by the time that the gate takes; water that sticks is slower.
+
+    The first point of the experiment, which fits no delay, does not count.
+    """
+    report = {floor: example["compare"](curves) for floor, curves in example["found"].items()}
+    fixed, sliding = report["fixed"], report["sliding"]
+    assert 0.05 < fixed["ahead"].mean() < 0.10
+    assert fixed["ahead"].mean() < sliding["ahead"].mean() < 0.12
+    for found in (fixed, sliding):
+        assert found["ahead"].max() < 0.16
+        assert found["late"][1:].std() < 0.035
+        assert np.abs(found["off"]).max() < 0.03
+
+
 CHECKS = {
     "01_boussinesq": boussinesq,
     "02_vibrating_bar_convergence": vibrating_bar_convergence,
     "03_block_on_moving_base": block_on_moving_base,
     "04_colliding_spheres": colliding_spheres,
     "05_slope_under_its_weight": slope_under_its_weight,
+    "06_dam_break": dam_break,
 }
 
 

@@ -6,12 +6,15 @@ from pathlib import Path
 
 import meshes
 import pytest
+import terrains
 
 from mpmgeo.case.load import CaseError, load_case
+from mpmgeo.simulation import Simulation
 
 PAGE = Path(__file__).parents[2] / "manual" / "compatibility-keys.md"
 ROW = re.compile(r"^\| `([^`]+)` \| `([^`]+)` \| ([^|]*) \| ([^|]*) ?\|$", re.MULTILINE)
-ROWS = [(key, json.loads(text)) for key, text, _, _ in ROW.findall(PAGE.read_text("utf-8"))]
+FOUND = ROW.findall(PAGE.read_text("utf-8"))
+ROWS = [(key, json.loads(text)) for key, text, _, _ in FOUND]
 
 BOX = {"point_p1": [0, 0, 0], "point_p2": [1, 1, 1]}
 PLANES = [f"plane_{axis}{side}" for side in "0n" for axis in "XYZ"]
@@ -91,9 +94,64 @@ AROUND = {
     "initial_pressure_material.*": {"pressure": 1, "material_id": 1},
     "pressure_force_box.*": BOX | {"pressure_force": [0, 0, 1]},
     "damping": {"type": "local"},
+    "terrain_contact": {"active": True, "stl_mesh": "terrain.stl"},
     "earthquake": {"active": True, "file": "record.csv"},
     "hydro_mechanical_coupling": {"enabled": True, "pore_pressure_field": "pressures.json"},
 }
+
+# What the last column of the table calls an error or a warning, by key.
+ERRORS = {
+    "time_step": [-1],
+    "critical_time_step_multiplier": [0, -1, "0.5"],
+    "n_phases": [1.5],
+    "save_state": ["yes", 1],
+    "mesh.cells_number": [[4.5, 4, 4]],
+    "materials.elastic.type": ["plastic"],
+    "materials.elastic.id": [1.5],
+    "materials.elastic.density": [0],
+    "materials.elastic.young": ["2e6"],
+    "materials.elastic.poisson": [0.5, 0.6],
+    "materials.elastic.density_fluid": [0],
+    "materials.elastic.porosity": [0],
+    "materials.elastic.bulk_fluid": [0],
+    "materials.elastic.hydraulic_conductivity": [[0, 0, 0]],
+    "materials.mohr-coulomb.softening": ["linear"],
+    "body.cuboid.type": ["cone"],
+    "body.cuboid.active": ["yes"],
+    "body.cuboid.material_id": [9],
+    "body.cuboid.point_p2": [[-1, 1, 1], [0, 1, 1]],
+    "body.polygon_2d.extrude_direction": ["w"],
+    "body.polygon_2d.extrude_displacement": [0, -1],
+    "body.polygon_2d.discretization_length": [-1],
+    "body.polygon_2d.points": [[[0, 0, 0], [1, 0, 0]]],
+    "body.particles.particles.position": [[[1, 1, 1]]],
+    "body.gmsh.physical_to_material": [{"sand": 1}],
+    "body.gmsh.particle_distribution": ["random"],
+    "nodal_point_load": [[[[9, 9, 9], [0, 0, -1]]]],
+    "load_distributed_box.*.point_p1": [None],
+    "load_distributed_box.*.point_p2": [None],
+    "load_distributed_box.*.load": [None],
+    "prescribed_pressure_box.*.point_p1": [None],
+    "initial_pressure_material.*.pressure": [None],
+    "damping.value": [-0.1],
+    "earthquake.file": ["none.csv", "list.json"],
+    "hydro_mechanical_coupling.type": ["two_way"],
+    "hydro_mechanical_coupling.pore_pressure_field": ["none.json", "record.csv"],
+    "results.print": ["20"],
+}
+WARNINGS = {
+    "material": [[{"type": "elastic"} | STONE]],
+    "materials.elastic.id": [1],
+    "earthquake.active": [None],
+    "earthquake.header": [True],
+    "hydro_mechanical_coupling.enabled": [None],
+    "results.material_point_results": [["stres"]],
+}
+RAISED_LATER = {"load_state"}  # whether the saved state fits is known once there are particles
+
+
+def entries(table):
+    return [pytest.param(key, value, id=f"{key}={value}") for key in table for value in table[key]]
 
 
 @pytest.fixture
@@ -104,6 +162,7 @@ def folder(tmp_path, monkeypatch):
     for name in ("list.json", "pressures.json"):
         (tmp_path / name).write_text(json.dumps([entry]))
     (tmp_path / "record.csv").write_text("t,x,y,z\n0,0,0,0\n1,0,0,0\n")
+    (tmp_path / "terrain.stl").write_text(terrains.text_of(terrains.plane()))
     group = {"soil": [("hexahedron", *meshes.box("hexahedron"))]}
     meshes.write(tmp_path / "soil.msh", meshes.mesh_of(group))
 
@@ -162,6 +221,39 @@ def test_row(folder, key, value):
     except CaseError as error:
         pytest.fail("; ".join(error.problems))
     assert not [warning for warning in loaded.warnings if "ignored" in warning]
+
+
+@pytest.mark.parametrize(("word", "table"), [("an error", ERRORS), ("a warning", WARNINGS)])
+def test_what_the_table_promises_is_tried(word, table):
+    promised = {key for key, _, _, difference in FOUND if word in difference}
+    assert promised - RAISED_LATER <= set(table)
+
+
+@pytest.mark.parametrize(("key", "value"), entries(ERRORS))
+def test_error_of_a_row(folder, key, value):
+    phases = {"n_phases": 2} if key.rpartition(".")[2] in WATER else {}
+    with pytest.raises(CaseError) as error:
+        load_case(case_with(key, value) | phases)
+    name = key.rpartition(".")[2] if "softening" not in key else "softening"
+    assert any(name in problem for problem in error.value.problems)
+
+
+@pytest.mark.parametrize(("key", "value"), entries(WARNINGS))
+def test_warning_of_a_row(folder, key, value):
+    case = case_with(key, value)
+    soil = {"type": "elastic"} | STONE
+    if key == "material":
+        case["materials"] = [soil]
+    elif key == "materials.elastic.id":
+        case["materials"] = [soil, soil]
+    elif key == "earthquake.header":
+        Path("record.csv").write_text("0,0,0,0\n1,0,0,0\n")
+    assert load_case(case).warnings
+
+
+def test_a_missing_state_is_an_error(folder):
+    with pytest.raises(ValueError, match="load_state"):
+        Simulation(load_case(case_with("load_state", True)))
 
 
 OF_THE_FLUID = [

@@ -72,6 +72,8 @@ BAD = [
     (WATER, "bulk", 0, f"0 {NOT} a number above 0"),
     (WATER, "viscosity", -1e-3, f"-0.001 {NOT} a number at least 0"),
     (WATER, "viscosity", "1e-3", f'"1e-3" {NOT} a number at least 0, without quotes'),
+    (WATER, "tensile", -1, f"-1 {NOT} a number at least 0"),
+    (WATER, "tensile", "0", f'"0" {NOT} a number at least 0, without quotes'),
 ]
 
 DOUBTFUL = [

@@ -177,7 +177,6 @@ BAD = [
     (("results", "grid_nodal_results"), [["mass"]], "results.grid_nodal_results[0]: "),
     (("results", "grid_all_cells"), 1, "results.grid_all_cells: 1"),
     # parts of later versions
-    (("terrain_contact",), {"active": True}, "terrain_contact.active: true is not supported yet"),
     (("terrain_contact",), True, f"terrain_contact: true {NOT} an object"),
 ]
 

@@ -52,8 +52,9 @@ def plateau(h):
 
 @pytest.mark.slow
 def test_bearing_capacity():
-    """The tool and what it drives with it are up to a cell larger than it is, and volume locks: the
-    pressure is too high by a share that halves with the cell; what is left without cells is right.
+    """The tool and what it drives with it are up to a cell larger than it is, and nothing is done
+    against locking: the pressure is too high, by a share that halves with the cell. It stays on a
+    plateau, and what two cell sizes extrapolate to is right.
     """
     exact = bearing_capacity(COHESION)
     (coarse, growth), (fine, finer_growth) = plateau(0.125), plateau(0.0625)

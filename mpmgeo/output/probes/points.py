@@ -52,17 +52,22 @@ class Interpolated:
 
     def row(self):
         """Return the values now."""
-        return np.concatenate([self._at(point) for point in self.points])
+        near, found = [], []
+        for s in self.solver.sets:
+            at, group, weight = self._neighbours(s)
+            near.append((group, s.x[at], weight))
+            found.append(values(self.solver, s, self.fields, at))
+        group, position, weight = map(np.concatenate, zip(*near, strict=True))
+        found = np.concatenate(found)
+        return linear_fit(self.points, group, position, weight, found).ravel()
 
-    def _at(self, point):
-        solver, near, found = self.solver, [], []
-        for s in solver.sets:
-            at = particles_within(solver, s, point - self._cell, point + self._cell)
-            distance = np.abs(s.x[at] - point) / self._cell
-            weight = s.V[at] * np.maximum(1 - distance, 0.0).prod(axis=1)
-            at, weight = at[weight > 0], weight[weight > 0]
-            near.append(np.column_stack([s.x[at], weight]))
-            found.append(values(solver, s, self.fields, at))
-        near, found = np.concatenate(near), np.concatenate(found)
-        group = np.zeros(len(near), np.int64)
-        return linear_fit(point[None], group, near[:, :3], near[:, 3], found)[0]
+    def _neighbours(self, s):
+        """Return indices of particles of a set, the points that they are near to, their weights."""
+        low, high = self.points - self._cell, self.points + self._cell
+        near = [particles_within(self.solver, s, *box) for box in zip(low, high, strict=True)]
+        group = np.repeat(np.arange(len(near)), [len(at) for at in near])
+        at = np.concatenate(near)
+        distance = np.abs(s.x[at] - self.points[group]) / self._cell
+        weight = s.V[at] * np.maximum(1 - distance, 0.0).prod(axis=1)
+        counts = weight > 0
+        return at[counts], group[counts], weight[counts]

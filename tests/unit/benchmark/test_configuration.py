@@ -50,16 +50,16 @@ def read(tmp_path, monkeypatch):
 
 def test_built_in_values(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    (only,), remarks = read_configurations(None)
+    (only,), _, absences = read_configurations(None)
     assert only == Configuration()
     assert (only.particles, only.threads, only.cells) == (150000, 10, (1, 1, 1))
-    assert len(remarks) == len(KEYS)
+    assert len(absences) == len(KEYS)
 
 
 def test_shipped_file(read):
-    (only,), remarks = read(SHIPPED)
+    (only,), remarks, absences = read(SHIPPED)
     assert only == Configuration(threads=1, cells=(100, 100, 100))
-    assert remarks == []
+    assert remarks == absences == []
 
 
 def test_every_key_is_read(read):
@@ -70,7 +70,7 @@ def test_every_key_is_read(read):
         tree = value
         for key in reversed(keys):
             tree = {key: tree}
-        (only,), _ = read(tree)
+        (only,), _, _ = read(tree)
         found = getattr(only, name)
         assert found == (tuple(value) if isinstance(value, list) else value) != default
 
@@ -81,7 +81,7 @@ def test_matrix(read):
         "executables": {"current": "MPM-Geomechanics-benchmark"},
         "parameters": {"particles": [150, 250], "threads": [1, 5, 10]},
     }
-    found, remarks = read(tree)
+    found, remarks, _ = read(tree)
     pairs = [(c.particles, c.threads) for c in found]
     assert pairs == [(n, t) for n in (150, 250) for t in (1, 5, 10)]
     assert {c.cells for c in found} == {(100, 100, 100)}
@@ -89,7 +89,7 @@ def test_matrix(read):
 
 
 def test_keys_that_nobody_reads_are_told(read):
-    _, remarks = read({"global": {"particleSize": 2, "particleMass": 3}})
+    _, remarks, _ = read({"global": {"particleSize": 2, "particleMass": 3}})
     assert remarks[:2] == [
         "global.particleSize: no effect, particles have the size 1",
         "global.particleMass: no effect, particles have the mass 1",
@@ -97,9 +97,9 @@ def test_keys_that_nobody_reads_are_told(read):
 
 
 def test_lists_of_another_length_are_absent(read):
-    (only,), remarks = read({"global": {"cellDimension": [1, 2]}})
+    (only,), _, absences = read({"global": {"cellDimension": [1, 2]}})
     assert only.cell == (1, 1, 1)
-    assert any(remark.startswith("global.cellDimension: absent") for remark in remarks)
+    assert any(remark.startswith("global.cellDimension: absent") for remark in absences)
 
 
 @pytest.mark.parametrize(
@@ -132,3 +132,19 @@ def test_no_json(tmp_path, text):
     file.write_bytes(text)
     with pytest.raises(ValueError, match="not JSON"):
         read_configurations(file)
+
+
+def test_unknown_keys_are_told(read):
+    tree = {
+        "thrads": [1],
+        "global": {"numParticels": 3, "comment": "free"},
+        "update": {"ParticleStress_nParticles": {"E": 5.0, "epsilon": 0.2}},
+    }
+    (only,), remarks, _ = read(tree)
+    assert only == Configuration(young=5.0)
+    assert remarks == [
+        "thrads: no such key, it has no effect",
+        'global.numParticels: no such key, it has no effect; did you mean "global.numParticles"?',
+        "update.ParticleStress_nParticles.epsilon: no such key, it has no effect; "
+        'did you mean "update.ParticleStress_nParticles.epsilon0"?',
+    ]

@@ -41,7 +41,27 @@ def test_shear(component):
 def test_pressure_adds_up():
     once = flow([1e-4, 1e-4, 1e-4, 0, 0, 0])
     assert flow([1e-4, 1e-4, 1e-4, 0, 0, 0], once) == pytest.approx(2 * once, rel=1e-12)
-    assert (once[:3] > 0).all(), "there is no cavitation"
+    assert (once[:3] > 0).all(), "without a tensile strength there are no voids"
+
+
+def test_tensile_strength_opens_and_closes_voids():
+    """Beyond the strength strain makes void, and the same strain closes it before pressure."""
+    element = Element(replace(WATER, viscosity=0.0, tensile=100.0), time_step=DT)
+    ε = np.array([1e-4, 1e-4, 1e-4, 0, 0, 0])
+    element.drive(ε)
+    assert element.stress[:3] == pytest.approx([100.0] * 3)
+    assert element.state == pytest.approx([3e-4 - 100.0 / 2.5e6])
+    element.drive(-ε)
+    assert element.stress[:3] == pytest.approx([0.0] * 3, abs=1e-9)
+    assert element.state == pytest.approx([0.0], abs=1e-15)
+    element.drive(-ε)
+    assert element.stress[:3] == pytest.approx([-750.0] * 3)
+
+
+def test_tensile_strength_changes_nothing_under_pressure():
+    strain, stress = [-1e-4, 2e-5, -3e-5, 1e-5, 2e-5, 3e-5], [-900.0] * 3 + [0.0] * 3
+    limited = flow(strain, stress, replace(WATER, tensile=0.0))
+    assert limited == pytest.approx(flow(strain, stress), rel=1e-12)
 
 
 def test_sound_speed():

@@ -2,10 +2,13 @@
 
 import numpy as np
 import pytest
-from assembly import RUBBER, assemble, by_row, nodes
+from assembly import RUBBER, assemble, by_row, nodes, planes
 from models import Counting
 
-from mpmgeo.mpm.solver import SMALL, Unsound
+from mpmgeo.boundaries.planes import BASE
+from mpmgeo.mpm.incidents import Unsound
+from mpmgeo.mpm.solver import SMALL
+from mpmgeo.mpm.tools import Tools
 from mpmgeo.shapes import SHAPES
 
 DT = 1e-3
@@ -52,6 +55,52 @@ def test_particles_that_leave_take_no_further_part(scheme, split):
     _, mass, _, _ = nodes(solver)
     assert mass.sum() == pytest.approx(6.0)
     assert solver.kinetic_energy() == pytest.approx(0.5 * 4.0)
+
+
+def passing(**more):
+    """Return a solver whose first particle has passed the lowest plane, before it is sorted."""
+    solver = assemble([[6.0, 6.0, 0.1], [6.0, 6.0, 6.0]], **more)
+    solver.step()
+    s = solver.sets[0]
+    s.x[s.row == 0, 2] = -1e-3
+    solver.gone = 1
+    return solver
+
+
+@pytest.mark.parametrize("kind", ["sliding", "fixed"])
+def test_nobody_leaves_through_a_wall(kind):
+    solver = passing(planes=planes(kind))
+    solver.step()
+    assert not solver.departures and solver.sets[0].active == 2
+    assert by_row(solver, "x")[0, 2] == pytest.approx(0.0, abs=1e-6)
+
+
+class Pushed:
+    """A plane of lowest z that moves downwards."""
+
+    def at(self, time):
+        return [np.nan, np.nan, -1.0]
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [
+        {"planes": planes("sliding", plane_Z0="free")},
+        {"planes": planes("sliding"), "leaky": True},
+        {"planes": planes("sliding")._replace(z0=BASE)},
+        {"planes": planes("sliding"), "tools": Tools([Pushed()], [(2, 0)])},
+    ],
+)
+def test_who_passes_what_is_no_wall_leaves(keys):
+    solver = passing(**keys)
+    solver.step()
+    assert [d.rows.tolist() for d in solver.departures] == [[0]]
+
+
+def test_who_begins_outside_is_not_fetched():
+    solver = assemble([[6.0, 6.0, -0.1], [6.0, 6.0, 6.0]], planes=planes("sliding"))
+    solver.step()
+    assert [d.rows.tolist() for d in solver.departures] == [[0]]
 
 
 def test_one_departure_tells_its_lowest_row_first():

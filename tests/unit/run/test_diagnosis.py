@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from mpmgeo.mpm.solver import Unsound
+from mpmgeo.mpm.incidents import Unsound
 from mpmgeo.run.diagnosis import diagnose
 
 STRESS = [1e6, -2e6, 3e6, 4.0, 5.0, 6.0]

@@ -9,7 +9,7 @@ from models import Spline6, Spline10
 
 from mpmgeo.shapes import SHAPES
 from mpmgeo.state.grid import corners_of
-from mpmgeo.state.sorting import sort
+from mpmgeo.state.sorting import Walls, sort
 
 SHAPES_BY_WIDTH = {2: SHAPES["linear"], 3: SHAPES["GIMP"], 6: Spline6(), 10: Spline10()}
 ORIGIN, CELL, CELLS = (-1.0, 0.5, 2.0), (0.5, 0.25, 1.0), (20, 16, 24)
@@ -170,6 +170,28 @@ def test_outside_and_nan_go_behind_for_good():
     assert s.active == 43 and s.row[43] == late
     check = np.isin(s.row[:43], [*rows, late])
     assert not check.any()
+
+
+def test_who_passes_a_wall_is_put_back():
+    grid, sets = scattered(50)
+    s = sets[0]
+    sort(grid, sets, True)
+    cell = np.array(CELL)
+    s.x[0], s.x[1] = LOW - 0.1 * cell, HIGH + 0.1 * cell
+    s.x[2:6] = [
+        LOW - [1e-12, 0, 0],
+        [LOW[0] + 1, LOW[1] - 1e-3, HIGH[2]],
+        [LOW[0] - 1, LOW[1] + 1, np.nan],
+        HIGH + [0, 0.1, 0],
+    ]
+    row = s.row[:6].copy()
+    walls = Walls(x0=True, y0=True, z0=True, xn=True, zn=True)
+    assert sort(grid, sets, True, walls) == [3]
+    check_order(grid, s)
+    assert set(s.row[s.active :]) == set(row[[1, 4, 5]])
+    x = s.x[np.argsort(s.row)][row]
+    assert np.abs(x[0] - LOW).max() < 1e-8
+    assert x[3] == pytest.approx([LOW[0] + 1, LOW[1], HIGH[2]], abs=1e-8)
 
 
 def test_the_mesh_is_a_closed_box():

@@ -1,36 +1,17 @@
-"""Keys for parts that mpmgeo does not have: accepted while they switch nothing on."""
-
-from typing import NamedTuple
+"""What a case switches off, which is not read."""
 
 from mpmgeo.case.aliases import places
 from mpmgeo.materials.saturation import KEYS
-
-
-def _switch(key):
-    return {"type": "object", "properties": {key: {"type": "boolean", "const": False}}}
-
-
-NEUTRAL = {(): {"terrain_contact": _switch("active")}}
-"""Place → keys that no declaration knows, with the JSON Schema of the values without effect."""
-
-
-class Unsupported(NamedTuple):
-    """What a value at a place would ask for; `values` empty: every value that is not neutral."""
-
-    part: str
-    values: tuple = ()
-
-
-UNSUPPORTED = {
-    ("terrain_contact", "active"): Unsupported("contact with a terrain"),
-}
-
 
 FROM_OUTSIDE = ("particles", "particles_list", "particles_from_file", "gmsh")
 """Kinds of body whose particles or files may be missing while the body is inactive."""
 
 
-SWITCHES = {"earthquake": "active", "hydro_mechanical_coupling": "enabled"}
+SWITCHES = {
+    "earthquake": "active",
+    "terrain_contact": "active",
+    "hydro_mechanical_coupling": "enabled",
+}
 """Top-level keys of parts that a key of their own switches on."""
 
 
