@@ -5,9 +5,9 @@ pressure. Tiles and chunks are those of `transfer`. Two records of a tile belong
 
     flow:  m, m v (3), ∫ p ∇S dV (3), V           pores:  pore volume, drag (3), force (3), spare
 
-Record of a node: flux q (3), a (3), divergence of the flux in the
-cell above, porosity. q is the velocity of the
-whole pore fluid and solid as a volume, v_s + n (v_f − v_s); its divergence presses the fluid.
+Record of a node: flux q (3), a (3), mean pressure of the cell above, porosity. q is the
+velocity of fluid and solid together as a volume, v_s + n (v_f − v_s); its divergence presses the
+fluid.
 """
 
 from numba import prange
@@ -35,16 +35,16 @@ from mpmgeo.numerics.simd import (
     with_velocity,
 )
 from mpmgeo.shapes.shape import width
-from mpmgeo.state.grid import SIDE
+from mpmgeo.state.grid import NODES, SIDE
 
 LEAST = 0.01  # porosity below which the pores count as no smaller: they cannot close
 
 
 @inlined
 def _cell(mesh, origin, row, x, i):
-    """Return where the record of the lowest node of particle i's cell begins in its tile."""
+    """Return the place in its tile, along x, y, z, of the lowest node of particle i's cell."""
     g = min(max(truncate(in_block(mesh, origin, load_row(x, i))), 0.0), row - 2.0)
-    return int((lane(g, 0) * row + lane(g, 1)) * row + lane(g, 2)) * LANES
+    return int(lane(g, 0)), int(lane(g, 1)), int(lane(g, 2))
 
 
 @blockwise
@@ -62,27 +62,42 @@ def sum_cells(shape, mesh, first, chunk, start, corner, x, V, p, free, tiles):
                 tiles[b * size : (b + 1) * size] = 0.0
             origin = block_origin(mesh, corner, b)
             for i in range(start[b], start[b + 1]):
-                at = b * size + _cell(mesh, origin, row, x, i)
+                I, J, K = _cell(mesh, origin, row, x, i)
+                at = b * size + ((I * row + J) * row + K) * LANES
                 volume = V[i] if free is None else V[i] * free[i]
                 tiles[at] += volume
                 tiles[at + 1] += volume * p[i]
 
 
 @blockwise
+def share(shape, mesh, chunk, start, corner, above, nodes, x, p, free):
+    """Give the particles the mean pressure of their cell, which `average` put into the nodes."""
+    row = SIDE + width(shape) - 1
+    reach = (row + SIDE - 1) // SIDE
+    for c in prange(len(chunk) - 1):
+        for b in range(chunk[c], chunk[c + 1]):
+            origin = block_origin(mesh, corner, b)
+            for i in range(start[b], start[b + 1]):
+                if free is not None and free[i] == 0.0:
+                    continue
+                I, J, K = _cell(mesh, origin, row, x, i)
+                block = above[b, (I // SIDE * reach + J // SIDE) * reach + K // SIDE]
+                n = block * NODES + (I % SIDE * SIDE + J % SIDE) * SIDE + K % SIDE
+                p[i] = nodes[n * LANES + 6]
+
+
+@blockwise
 def scatter(
-    shape, mesh, fluid, first, chunk, start, corner, above, means, scratch, half, x, m, v, V, p,
-    free, force, flow, pores,
+    shape, mesh, fluid, first, chunk, start, corner, half, x, m, v, V, p, force, flow, pores,
 ):  # fmt: skip
     """Add mass, momentum, pressure force, drag of the fluid to the tiles; `first` empties them.
 
-    `m`, `v`, `p`: mass, velocity, pressure of the fluid; `free` None, or 0 for particles that keep
-    their pressure, the others take those of `means`, the cells' records, unless that is None;
-    `force`: on the fluid against the solid, None without.
+    `m`, `v`, `p`: mass, velocity, pressure of the fluid; `force`: on the fluid against the solid,
+    None without.
     """
     row = SIDE + width(shape) - 1
     size = row * row * row * LANES
     for c in prange(len(chunk) - 1):
-        tile = scratch[c * size : (c + 1) * size]
         one = pack(1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
         volume = pack(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
         X = pack(0.0, 0.0, 0.0, 0.0, mesh.ix, 0.0, 0.0, 0.0)
@@ -92,14 +107,8 @@ def scatter(
             if first:
                 flow[b * size : (b + 1) * size] = 0.0
                 pores[b * size : (b + 1) * size] = 0.0
-            if start[b] == start[b + 1]:
-                continue
-            if means is not None:
-                copy_tile(means, above, b, row, tile)
             origin = block_origin(mesh, corner, b)
             for i in range(start[b], start[b + 1]):
-                if means is not None and (free is None or free[i] > 0.0):
-                    p[i] = tile[_cell(mesh, origin, row, x, i) + 6]
                 n, wx, wy, wz = locate(shape, mesh, origin, half, x, i)
                 C0 = axpy(m[i], with_velocity(one, load_row(v, i)), scale(V[i], volume))
                 q = V[i] * p[i]

@@ -46,18 +46,17 @@ class PoreFluid:
         grid = s.grid
         self.fit(grid)
         if self.smooth:
-            self._average(s)
+            self._share_pressures(s)
         for number, p in enumerate(s.sets):
             s.run_kernel(
                 fluid_transfer.scatter,
-                *(p.fluid, number == 0, p.chunk, p.start, grid.corner, grid.above),
-                *(self.flux if self.smooth else None, grid.scratch, p.half, p.x, p.mf, p.vf),
-                *(p.V, p.pf, p.free, p.pull, self.flow, self.pores),
+                *(p.fluid, number == 0, p.chunk, p.start, grid.corner, p.half, p.x, p.mf, p.vf),
+                *(p.V, p.pf, p.pull, self.flow, self.pores),
             )
         s.clock.lap("fluid: scatter")
 
-    def _average(self, s):
-        """Make the records of the cells of the mean pressures of their particles."""
+    def _share_pressures(self, s):
+        """Give all particles of a cell the mean of their pressures, weighted by volume."""
         grid = s.grid
         for number, p in enumerate(s.sets):
             s.run_kernel(
@@ -65,6 +64,11 @@ class PoreFluid:
                 *(number == 0, p.chunk, p.start, grid.corner, p.x, p.V, p.pf, p.free, self.flow),
             )
         s.run_kernel(fluid_grid.average, grid.chunk, grid.below, self.flow, self.scratch, self.flux)
+        for p in s.sets:
+            s.run_kernel(
+                fluid_transfer.share,
+                *(p.chunk, p.start, grid.corner, grid.above, self.flux, p.x, p.pf, p.free),
+            )
         s.clock.lap("fluid: means of cells")
 
     def update_momentum(self, s, h):
