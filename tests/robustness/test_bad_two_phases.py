@@ -15,6 +15,7 @@ FLUID = {
     "hydraulic_conductivity": [0.01, 0.01, 0.01],
 }
 BOX = {"point_p1": [0, 0, 0], "point_p2": [1, 1, 1]}
+TERRAIN = {"active": True, "stl_mesh": "ground.stl"}
 LONE = ("hydro_mechanical_coupling", "compatibility", "prescribed_velocity")
 
 
@@ -71,6 +72,7 @@ PARTS = [
     ({"stress_scheme_update": "USF"}, 'stress_scheme_update: "USF" is for one phase; accepted wi'),
     ({"compatibility": "mpm-geomechanics"}, "compatibility: two phases have no earlier form"),
     ({"hydro_mechanical_coupling": COUPLING}, "hydro_mechanical_coupling: pressures from a file a"),
+    ({"terrain_contact": TERRAIN}, "terrain_contact: a terrain does not hold the pore fluid"),
     ({"prescribed_pressure_box": [BOX]}, "prescribed_pressure_box[0].pressure: missing"),
     ({"initial_pressure_material": [{"material_id": 99, "pressure": 1}]}, "99 is no id of a mat"),
 ]
