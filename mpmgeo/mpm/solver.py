@@ -132,7 +132,7 @@ class Solver:
             if not count:
                 continue
             new = slice(s.active, s.active + count)
-            speed = np.linalg.norm(s.v[new], axis=1)
+            speed = np.hypot(np.hypot(*s.v[new, :2].T), s.v[new, 2])  # squares may overflow
             broken = ~(speed <= self.speed_limit) | ~np.isfinite(s.x[new]).all(axis=1)
             if broken.any():
                 self._refuse(s, s.active + int(broken.argmax()))

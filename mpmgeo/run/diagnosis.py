@@ -1,5 +1,7 @@
 """Why a run diverged: the first bad particle and the likely cause, in words."""
 
+from math import hypot
+
 import numpy as np
 
 
@@ -12,7 +14,7 @@ def diagnose(simulation, error, last_stress):
     numbers = ", ".join(f"{x:.4g}" for x in error.position)
     stress = error.stress if last_stress is None else last_stress
     stress = ", ".join(f"{s:.4g}" for s in stress)
-    speed = float(np.linalg.norm(error.velocity))
+    speed = hypot(*error.velocity)  # squares of such speeds may overflow
     return (
         f"the run diverged in step {error.step} (time {error.time:.6g} s): particle {error.row} of "
         f"material {error.material} at ({numbers}) m has a speed of {speed:.4g} m/s, its last "
