@@ -45,16 +45,19 @@ def fastest(chunk, active, nodes, least, motion, speed):
 
 @blockwise
 def share(shape, chunk, active, below, some, mass, nodes, part):
-    """Write which part of the nodes' mass touches, for the blocks of nodes `active`."""
+    """Write which part of the nodes' mass touches, for blocks of nodes under tiles that touch."""
     row = SIDE + width(shape) - 1
     reach = 1 + (width(shape) + SIDE - 2) // SIDE
     for c in prange(len(chunk) - 1):
         for a in range(chunk[c], chunk[c + 1]):
-            part[a * NODES : (a + 1) * NODES] = 0.0
+            found = False
             for o in range(reach * reach * reach):
                 s = below[a, o]
                 if s < 0 or some[s] == 0:
                     continue
+                if not found:
+                    part[a * NODES : (a + 1) * NODES] = 0.0
+                    found = True
                 i0, j0, k0 = (
                     o // (reach * reach) * SIDE,
                     o // reach % reach * SIDE,
@@ -66,9 +69,9 @@ def share(shape, chunk, active, below, some, mass, nodes, part):
                         for k in range(min(SIDE, row - k0)):
                             at = a * NODES + (i * SIDE + j) * SIDE + k
                             part[np.uintp(at)] += mass[np.uintp(n + k)]
-            for n in range(NODES):
-                m = nodes[(active[a] * NODES + n) * LANES + 6]
-                part[a * NODES + n] = part[a * NODES + n] / m if m > 0.0 else 0.0
+            for n in range(NODES if found else 0):
+                if part[a * NODES + n] > 0.0:
+                    part[a * NODES + n] /= nodes[(active[a] * NODES + n) * LANES + 6]
 
 
 @inlined
@@ -165,6 +168,7 @@ def push(
     reach = 1 + (width(shape) + SIDE - 2) // SIDE
     for c in prange(len(chunk) - 1):
         sums = scratch[c * row * row * row * LANES :][: NODES * 3].reshape(NODES, 3)
+        q = 1.0 / h
         for a in range(chunk[c], chunk[c + 1]):
             if not sum_impulses(impulse, below, some, a, row, reach, sums):
                 continue
@@ -172,12 +176,16 @@ def push(
             I, J, K = active_corner[b, 0], active_corner[b, 1], active_corner[b, 2]
             bounded = is_bounded(mesh, I, J, K)
             for n in range(NODES):
+                vx, vy, vz = sums[n, 0], sums[n, 1], sums[n, 2]
+                if vx == 0.0 and vy == 0.0 and vz == 0.0:
+                    continue
                 at = (b * NODES + n) * LANES
                 u = load(nodes, at)
                 m = lane(u, 6)
                 if not m > 0.0:
                     continue
-                vx, vy, vz = sums[n, 0] / m, sums[n, 1] / m, sums[n, 2] / m
+                w = 1.0 / m
+                vx, vy, vz = w * vx, w * vy, w * vz
                 if bounded:
                     i, j, k = I * SIDE + n // 16, J * SIDE + n // 4 % 4, K * SIDE + n % 4
                     vx, vy, vz = constrain(planes, mesh, i, j, k, vx, vy, vz, (0.0, 0.0, 0.0), True)
@@ -187,7 +195,6 @@ def push(
                         vx = 0.0 if given[t, 0] > 0.0 else vx
                         vy = 0.0 if given[t, 1] > 0.0 else vy
                         vz = 0.0 if given[t, 2] > 0.0 else vz
-                q = 1.0 / h
                 change = pack(vx, vy, vz, q * vx, q * vy, q * vz, 0.0, 0.0)
                 store(nodes, at, add(u, change))
 
