@@ -22,11 +22,7 @@ FROM_FILES = (("prescribed_velocity",), ("hydro_mechanical_coupling",), ("terrai
 ONE_PHASE_ONLY = (
     ("stress_scheme_update", "USF", '"USF" is for one phase; accepted with two: "USL", "MUSL"'),
     ("compatibility", None, "two phases have no earlier form that is worth keeping; leave it out"),
-    (
-        "terrain_contact",
-        None,
-        "a terrain does not hold the pore fluid; leave one of them out",
-    ),
+    ("terrain_contact", None, "a terrain does not hold the pore fluid; leave one of them out"),
     ("hydro_mechanical_coupling", None, "pressures from a file and two phases exclude each other"),
 )
 """Top-level keys and values (None: any) that do not go with two phases, and why."""

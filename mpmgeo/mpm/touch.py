@@ -33,13 +33,6 @@ EVEN = 0.1  # |∇d| below which opposite surfaces are so near that there is no 
 
 
 @inlined
-def extents(mesh, half, p):
-    """Return the half-sizes of particle p [m]."""
-    l = half_size(half, p)
-    return lane(l, 0) * mesh.hx, lane(l, 1) * mesh.hy, lane(l, 2) * mesh.hz
-
-
-@inlined
 def put(a, p, column, factor, x, y, z):
     """Write a multiple of a vector to three columns of row p of a table."""
     a[p, column], a[p, column + 1], a[p, column + 2] = factor * x, factor * y, factor * z

@@ -1,11 +1,7 @@
 """Two phases without what they need, or with what does not go with them: exit code 2, a message."""
 
-import json
-from pathlib import Path
-
 import pytest
-
-from mpmgeo import cli
+from refusal import refusal_of
 
 NOT = "is not accepted; accepted:"
 FLUID = {
@@ -27,22 +23,11 @@ def wet(case, folder):
     return case | {"n_phases": 2, "materials": materials, "stress_scheme_update": "MUSL"}
 
 
-def said(case, capsys):
-    """Return what the program says about a case that it refuses to run."""
-    Path("case.json").write_text(json.dumps(case))
-    assert cli.main(["case.json", "--output", "out"]) == cli.BAD_INPUT
-    shown = capsys.readouterr().err
-    assert "Traceback" not in shown
-    assert "nothing was run" in shown
-    assert not Path("out").exists()
-    return shown
-
-
 @pytest.mark.parametrize("key", FLUID)
 def test_keys_of_the_fluid_are_needed(wet, key, capsys):
     name = next(iter(wet["materials"]))
     del wet["materials"][name][key]
-    assert f"materials.{name}.{key}: missing; needed with two phases" in said(wet, capsys)
+    assert f"materials.{name}.{key}: missing; needed with two phases" in refusal_of(wet, capsys)
 
 
 VALUES = [
@@ -64,7 +49,7 @@ VALUES = [
 def test_values_of_the_fluid(wet, key, value, message, capsys):
     name = next(iter(wet["materials"]))
     wet["materials"][name][key] = value
-    assert f"materials.{name}.{message}" in said(wet, capsys)
+    assert f"materials.{name}.{message}" in refusal_of(wet, capsys)
 
 
 COUPLING = {"enabled": True, "pore_pressure_field": "pressures.json"}
@@ -80,12 +65,12 @@ PARTS = [
 
 @pytest.mark.parametrize(("keys", "message"), PARTS, ids=str)
 def test_what_does_not_go_with_two_phases(wet, keys, message, capsys):
-    assert message in said(wet | keys, capsys)
+    assert message in refusal_of(wet | keys, capsys)
 
 
 def test_walls_of_the_fluid(wet, capsys):
     wet["mesh"]["boundary_conditions_fluid"] = {"plane_Z0": "open", "plane_Q0": "free"}
-    shown = said(wet, capsys)
+    shown = refusal_of(wet, capsys)
     assert f'mesh.boundary_conditions_fluid.plane_Z0: "open" {NOT} "free", "sliding"' in shown
 
 
