@@ -9,6 +9,7 @@ import numba
 import numpy as np
 
 from mpmgeo.case.build import build, critical_time_step
+from mpmgeo.loads.point import GHOSTS
 from mpmgeo.mpm.incidents import Unsound
 from mpmgeo.naming import PLANES
 from mpmgeo.output.final_stress import FinalStress
@@ -60,25 +61,25 @@ class Simulation:
         ValueError if the snapshot cannot be used or is not of the case.
         """
         from mpmgeo.case.resume import case_of
-        from mpmgeo.mpm.persistence import take_over
+        from mpmgeo.mpm.persistence import take_snapshot
         from mpmgeo.state.snapshot import read_snapshot
 
         snapshot = read_snapshot(path)
         case = case_of(path, snapshot.facts, case)
         simulation = cls(replace(case, load_state=False), output, threads)
         simulation.case = case
-        take_over(simulation.solver, snapshot)
+        take_snapshot(simulation.solver, snapshot)
         simulation._told = set(snapshot.facts["told"])
         simulation.goes_on = True
         return simulation
 
     def save(self, path):
         """Write a snapshot of the complete state."""
-        from mpmgeo.mpm.persistence import state_of
+        from mpmgeo.mpm.persistence import snapshot_of
         from mpmgeo.output.whole_file import whole_file
         from mpmgeo.state.snapshot import Snapshot, write_snapshot
 
-        arrays, facts = state_of(self.solver)
+        arrays, facts = snapshot_of(self.solver)
         facts |= {"told": sorted(self._told), **self._case_facts}
         with whole_file(path) as file:
             write_snapshot(file, Snapshot(arrays, facts))
@@ -145,23 +146,10 @@ class Simulation:
         self._report_events()
 
     def _report_events(self):
-        solver = self.solver
-        if solver.departures and self._once("departure"):
-            first = solver.departures[0]
-            where = ", ".join(f"{x:.4g}" for x in first.position)
-            self.say(
-                f"particles leave the mesh and take no further part: the first is particle "
-                f"{first.rows[0]}, at ({where}) m after {first.time:.6g} s"
-            )
-        if solver.base is not None and solver.base.ended and self._once("record"):
-            held = "all planes are fixed" if self.case.compatibility else "the base is held"
-            self.say(f"the record of the base ended before {self.time:.6g} s; {held} from then on")
-        if solver.point_loads is not None and self._once("point loads"):
-            for number in np.flatnonzero(solver.point_loads.idle(solver.grid)) + 1:
-                self.say(
-                    f"nodal_point_load, entry {number}: its node carries no mass at the start; "
-                    "the force acts only while material is there"
-                )
+        for topic, messages in self.solver.news():
+            if self._once(topic):
+                for message in messages():
+                    self.say(message)
 
     def _once(self, topic):
         new = topic not in self._told
@@ -186,9 +174,9 @@ class Simulation:
 
     def _last_stress(self, row):
         """Return the stress (6,) [Pa] in the state kept last of the particle in a row, or None."""
-        for copy in self._kept["sets"] if self._kept else ():
-            if (found := copy["row"] == row).any():
-                return copy["stress"][found][0]
+        for number in range(len(self.solver.sets)) if self._kept else ():
+            if (found := self._kept[f"set{number}.row"] == row).any():
+                return self._kept[f"set{number}.stress"][found][0]
         return None
 
     def keep(self):
@@ -196,7 +184,7 @@ class Simulation:
         self._kept = self.solver.keep(self._kept)
 
     def restore(self):
-        """Go back to the state that was kept; to look at, not to run on from."""
+        """Go back to the state that was kept."""
         self.solver.restore(self._kept)
 
     # The state
@@ -250,7 +238,7 @@ class Simulation:
         another key, ValueError for another shape.
         """
         known = {"velocity": ("v", (3,)), "stress": ("stress", (6,))}
-        if self.solver.fluid is not None:
+        if self.case.n_phases == 2:
             known |= {"velocity_fluid": ("vf", (3,)), "pressure": ("pf", ())}
         name, shape = known[key]
         values, shape = np.asarray(values, float), (self.solver.count, *shape)
@@ -273,8 +261,8 @@ class Simulation:
     def nodes(self):
         """Return the nodes that carried mass in the last step."""
         grid = self.solver.grid
-        records, index = grid.records().reshape(-1, 8), grid.indices().reshape(-1, 3)
-        used = records[:, 6] > self.solver.cutoff
+        mass, velocity = grid.solid.at_nodes("mass"), grid.solid.at_nodes("velocity")
+        index, used = grid.indices().reshape(-1, 3), mass > self.solver.cutoff
         mesh = self.case.mesh
         position = index[used] * np.array(mesh.cells_dimension) + mesh.origin
-        return Nodes(index[used] + 2, position, records[used, 6], records[used, :3])
+        return Nodes(index[used] + GHOSTS, position, mass[used], velocity[used])

@@ -4,6 +4,7 @@ import numpy as np
 
 import mpmgeo
 from mpmgeo.boundaries.planes import BoundaryConditions, Planes
+from mpmgeo.damping import KineticDamping, LocalDamping
 from mpmgeo.materials.elastic import Elastic
 from mpmgeo.mpm.schemes import SCHEMES
 from mpmgeo.mpm.solver import Solver
@@ -35,12 +36,16 @@ def assemble(
     scheme="USL",
     law=RUBBER.symbols,
     split=1,
+    local=None,
+    delayed=None,
+    settles=False,
     **more,
 ):
     """Return the solver of particles at `position` (n, 3) in a mesh with free planes.
 
-    `split`: number of particle sets among which the particles are dealt in turn. `more`: fields of
-    Solver; a time step of 1 ms, no gravity and no mass cut-off if not said.
+    `split`: number of particle sets among which the particles are dealt in turn. `local`,
+    `delayed`: share of local damping, in our form or that of MPM-Geomechanics; `settles`: whether
+    there is kinetic damping. `more`: fields of Solver; a time step of 1 ms, no gravity and no mass cut-off if not said.
     """
     position = np.array(position, float).reshape(-1, 3)
     n = len(position)
@@ -67,12 +72,16 @@ def assemble(
     size = np.full((n, 3), 0.5)
     body, material = np.ones(n, np.uint32), np.ones(n, np.int64)
     fields = {"planes": planes(), "time_step": 1e-3, "gravity": (0.0, 0.0, 0.0)} | more
+    if settles:
+        fields["effects"] = (*fields.get("effects", ()), KineticDamping().effect())
     return Solver(
         grid=Grid(Mesh.of(origin, cell, cells), shape.width),
         sets=sets,
         population=Population(position, size, body, material, None),
         shape=shape,
         scheme=SCHEMES[scheme],
+        damping=() if local is None else (LocalDamping(value=local).symbols,),
+        early_damping=None if delayed is None else LocalDamping(value=delayed).symbols,
         **fields,
     )
 

@@ -6,8 +6,9 @@ three do the same work here. The check of a kernel compares with what is known e
 
 import numpy as np
 
-from mpmgeo.benchmark.loops import spins, strain_all, strains, stretch, sum_nodes, sum_weights
-from mpmgeo.mpm import transfer
+from mpmgeo.benchmark.loops import Spins, Strain, Strains, Stretch, SumTiles, SumWeights
+from mpmgeo.mpm.core.transfer import Scatter as ScatterWork
+from mpmgeo.mpm.task import Task
 from mpmgeo.numerics.simd import LANES
 
 ZERO = (0.0, 0.0, 0.0)
@@ -23,10 +24,7 @@ class ContributionNodes:
 
     def run(self):
         """Do the work that is timed."""
-        s = self.scene.particles
-        self.scene.kernel(
-            sum_weights, s.chunk, s.start, self.scene.grid.corner, s.half, s.x, self.out
-        )
+        self.scene.visit(SumWeights(), (self.out,))
 
     def error(self):
         """Return the largest relative error of the last run."""
@@ -51,8 +49,7 @@ class ParticleDensity:
 
     def run(self):
         """Do the work that is timed."""
-        s = self.scene.particles
-        self.scene.kernel(stretch, s.chunk, s.start, s.m, self.trace, self.V, self.out)
+        self.scene.visit(Stretch(self.trace), (self.scene.particles.m, self.V, self.out))
 
     def error(self):
         """Return the largest relative error of the last run."""
@@ -76,8 +73,7 @@ class ParticleStress:
 
     def run(self):
         """Do the work that is timed."""
-        s = self.scene.particles
-        self.scene.kernel(strain_all, s.law, s.chunk, s.start, self.strain, self.stress)
+        self.scene.visit(Strain(self.scene.particles.law, self.strain), (self.stress,))
 
     def error(self):
         """Return the largest relative error of the last run."""
@@ -103,12 +99,9 @@ class Scatter:
     def run(self):
         """Do the work that is timed."""
         g, s = self.scene.grid, self.scene.particles
-        self.scene.kernel(
-            transfer.scatter,
-            *(True, s.chunk, s.start, g.corner, s.half, s.x, self.velocity, s.m, s.V),
-            *(self.stress, None, ZERO, self.force, 0.0, g.tiles),
-        )
-        self.scene.kernel(sum_nodes, g.chunk, g.below, g.tiles, g.nodes)
+        arrays = (self.velocity, s.m, s.V, self.stress, None, self.force)
+        self.scene.visit(ScatterWork(ZERO, 0.0), arrays, (g.tiles,))
+        self.scene.over_nodes(Task(SumTiles(), (g.tiles,), g.scratch, (g.nodes,)))
 
     def error(self):
         """Return the error of the sum over all nodes in the last run, relative to its size."""
@@ -172,12 +165,7 @@ class Gather:
 
     def run(self):
         """Do the work that is timed."""
-        g, s = self.scene.grid, self.scene.particles
-        self.scene.kernel(
-            self.kernel,
-            *(s.chunk, s.start, g.corner, g.above, g.nodes, g.scratch, s.half, s.x),
-            *(self.dt, self.out),
-        )
+        self.scene.visit(self.work(self.dt), (self.out,), nodes=self.scene.grid.nodes)
 
     def error(self):
         """Return the largest error of the last run, relative to the largest component."""
@@ -187,7 +175,7 @@ class Gather:
 class ParticleStrainIncrement(Gather):
     """Strain increment where the velocity is (a x, b y, c z)."""
 
-    name, kernel, components = "particleStrainIncrement", staticmethod(strains), 6
+    name, work, components = "particleStrainIncrement", Strains, 6
 
     def set_up(self, configuration):
         """Choose the velocity."""
@@ -200,7 +188,7 @@ class ParticleStrainIncrement(Gather):
 class ParticleVorticityIncrement(Gather):
     """Spin increment where the velocity is ω × x."""
 
-    name, kernel, components = "particleVorticityIncrement", staticmethod(spins), 3
+    name, work, components = "particleVorticityIncrement", Spins, 3
 
     def set_up(self, configuration):
         """Choose the velocity."""

@@ -1,99 +1,97 @@
-"""Loops over particles or nodes for one quantity alone, which the solver computes in passing."""
+"""Work on particles or nodes for one quantity alone, which the solver computes in passing."""
 
-from numba import prange
+from typing import NamedTuple
 
 from mpmgeo.materials.law import update_stress
-from mpmgeo.mpm.grid_update import sum_tiles
-from mpmgeo.mpm.point import spin_increment, strain_increment
-from mpmgeo.mpm.tile import block_origin, collect, copy_tile, locate
-from mpmgeo.numerics.jit import blockwise
-from mpmgeo.numerics.simd import LANES
-from mpmgeo.shapes.shape import width
-from mpmgeo.state.grid import NODES, SIDE
+from mpmgeo.mpm.core.loops import at_node, visit
+from mpmgeo.mpm.core.point import spin_increment, strain_increment
+from mpmgeo.mpm.core.tile import collect, locate
+from mpmgeo.numerics.simd import LANES, load, store
 
 
-@blockwise
-def sum_weights(shape, mesh, chunk, start, corner, half, x, out):
-    """Sum the S³ weights of every particle."""
-    S = width(shape)
-    for c in prange(len(chunk) - 1):
-        for b in range(chunk[c], chunk[c + 1]):
-            origin = block_origin(mesh, corner, b)
-            for p in range(start[b], start[b + 1]):
-                _, wx, wy, wz = locate(shape, mesh, origin, half, x, p)
-                total = 0.0
-                for i in range(S):
-                    for j in range(S):
-                        for k in range(S):
-                            total += wx[i] * wy[j] * wz[k]
-                out[p] = total
+class SumWeights(NamedTuple):
+    """Sum the S³ weights of a particle. Arrays: sums."""
 
 
-@blockwise
-def stretch(shape, mesh, chunk, start, m, trace, V, density):
-    """Change the volumes by a volume strain and return the densities."""
-    for c in prange(len(chunk) - 1):
-        for p in range(start[chunk[c]], start[chunk[c + 1]]):
-            V[p] *= 1.0 + trace
-            density[p] = m[p] / V[p]
+@visit.register(SumWeights)
+def sum_weights(work, here, a, p):
+    _, wx, wy, wz = locate(here, p)
+    total = 0.0
+    for i in range(len(wx) // 2):
+        for j in range(len(wy) // 2):
+            for k in range(len(wz) // 2):
+                total += wx[i] * wy[j] * wz[k]
+    a[0][p] = total
+    return 0
 
 
-@blockwise
-def strain_all(shape, mesh, law, chunk, start, strain, stress):
-    """Update the stress of every particle for the same strain increment."""
-    for c in prange(len(chunk) - 1):
-        for p in range(start[chunk[c]], start[chunk[c + 1]]):
-            s = stress[p]
-            new = update_stress(law, (s[0], s[1], s[2], s[3], s[4], s[5]), strain, (), 1.0)
-            for a in range(6):
-                s[a] = new[a]
+class Stretch(NamedTuple):
+    """Change the volume by a volume strain and leave the density. Arrays: m, V, densities."""
+
+    trace: float
 
 
-@blockwise
-def sum_nodes(shape, mesh, chunk, below, tiles, nodes):
-    """Sum the tiles into the nodes."""
-    row = SIDE + width(shape) - 1
-    reach = 1 + (width(shape) + SIDE - 2) // SIDE
-    for c in prange(len(chunk) - 1):
-        for b in range(chunk[c], chunk[c + 1]):
-            sum_tiles(tiles, below, b, row, reach, nodes, b * NODES * LANES)
+@visit.register(Stretch)
+def stretch(work, here, a, p):
+    m, V, density = a
+    V[p] *= 1.0 + work.trace
+    density[p] = m[p] / V[p]
+    return 0
 
 
-@blockwise
-def strains(shape, mesh, chunk, start, corner, above, nodes, scratch, half, x, dt, out):
-    """Gather the strain increment of every particle."""
-    row = SIDE + width(shape) - 1
-    size = row * row * row * LANES
-    for c in prange(len(chunk) - 1):
-        tile = scratch[c * size : (c + 1) * size]
-        for b in range(chunk[c], chunk[c + 1]):
-            if start[b] == start[b + 1]:
-                continue
-            copy_tile(nodes, above, b, row, tile)
-            origin = block_origin(mesh, corner, b)
-            for p in range(start[b], start[b + 1]):
-                n, wx, wy, wz = locate(shape, mesh, origin, half, x, p)
-                _, sx, sy, sz = collect(tile, n, row, wx, wy, wz)
-                new = strain_increment(mesh, sx, sy, sz, dt)
-                for a in range(6):
-                    out[p, a] = new[a]
+class Strain(NamedTuple):
+    """Update the stress for the same strain increment everywhere. Arrays: stresses."""
+
+    law: object
+    strain: tuple
 
 
-@blockwise
-def spins(shape, mesh, chunk, start, corner, above, nodes, scratch, half, x, dt, out):
-    """Gather the spin increment of every particle."""
-    row = SIDE + width(shape) - 1
-    size = row * row * row * LANES
-    for c in prange(len(chunk) - 1):
-        tile = scratch[c * size : (c + 1) * size]
-        for b in range(chunk[c], chunk[c + 1]):
-            if start[b] == start[b + 1]:
-                continue
-            copy_tile(nodes, above, b, row, tile)
-            origin = block_origin(mesh, corner, b)
-            for p in range(start[b], start[b + 1]):
-                n, wx, wy, wz = locate(shape, mesh, origin, half, x, p)
-                _, sx, sy, sz = collect(tile, n, row, wx, wy, wz)
-                new = spin_increment(mesh, sx, sy, sz, dt)
-                for a in range(3):
-                    out[p, a] = new[a]
+@visit.register(Strain)
+def strain_particle(work, here, a, p):
+    s = a[0]
+    old = (s[p, 0], s[p, 1], s[p, 2], s[p, 3], s[p, 4], s[p, 5])
+    new = update_stress(work.law, old, work.strain, (), 1.0)
+    for i in range(6):
+        s[p, i] = new[i]
+    return 0
+
+
+class SumTiles(NamedTuple):
+    """Sum the tiles into the nodes. Arrays: nodes."""
+
+
+@at_node.register(SumTiles)
+def sum_tiles(work, node, a):
+    store(a[0], node.number * LANES, load(node.sums, node.at))
+
+
+class Strains(NamedTuple):
+    """Gather the strain increment. Arrays: increments (n, 6)."""
+
+    dt: float
+
+
+@visit.register(Strains)
+def strains(work, here, a, p):
+    n, wx, wy, wz = locate(here, p)
+    _, sx, sy, sz = collect(here.source, n, here.rows, wx, wy, wz)
+    new = strain_increment(here.mesh, sx, sy, sz, work.dt)
+    for i in range(6):
+        a[0][p, i] = new[i]
+    return 0
+
+
+class Spins(NamedTuple):
+    """Gather the spin increment. Arrays: increments (n, 3)."""
+
+    dt: float
+
+
+@visit.register(Spins)
+def spins(work, here, a, p):
+    n, wx, wy, wz = locate(here, p)
+    _, sx, sy, sz = collect(here.source, n, here.rows, wx, wy, wz)
+    new = spin_increment(here.mesh, sx, sy, sz, work.dt)
+    for i in range(3):
+        a[0][p, i] = new[i]
+    return 0

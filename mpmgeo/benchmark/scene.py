@@ -4,6 +4,7 @@ import numpy as np
 
 from mpmgeo.materials.elastic import Elastic
 from mpmgeo.mpm.solver import SMALL
+from mpmgeo.mpm.stages import Loops
 from mpmgeo.shapes import SHAPES
 from mpmgeo.state.grid import NODES, Grid, Mesh
 from mpmgeo.state.particles import ParticleSet
@@ -14,8 +15,8 @@ PER_CELL = 8
 SIZE = 1.0  # edge of all particles, whatever their number [m]
 
 
-class Scene:
-    """Sorted particles of mass 1 with their grid; `kernel(…)` runs a compiled loop over blocks."""
+class Scene(Loops):
+    """Sorted particles of mass 1 with their grid, and the loops over them."""
 
     def __init__(self, configuration, placement):
         self.configuration = configuration
@@ -42,11 +43,11 @@ class Scene:
             stress=np.zeros((count, 6)),
             half=tuple(np.minimum(SIZE / 2 / cell, 0.5).tolist()),
         )
-        sort(self.grid, [self.particles], self.small)
+        sort(self.grid, [self.particles], self.crew)
 
-    def kernel(self, kernel, *arguments):
-        """Run a kernel of the scene's shape and mesh, on threads unless there is little to do."""
-        return (kernel.serial if self.small else kernel)(self.shape, self.grid.mesh, *arguments)
+    def visit(self, work, arrays, tiles=None, nodes=None):
+        """Do a work with all particles; `tiles` are emptied before."""
+        self.over_particles(work, self.particles, arrays, tiles, nodes, fresh=True)
 
     def set_nodal_velocity(self, velocity):
         """Give the nodes the velocity that a function of their positions (n, 3) returns."""

@@ -35,6 +35,8 @@ class BaseMotion:
     `is_plane`: whether the base is the lowest plane, not a terrain.
     """
 
+    afterwards = "the base is held"
+
     def __init__(self, record, is_plane=True):
         self.record = record
         self.is_plane = is_plane
@@ -68,6 +70,8 @@ class BaseMotionAsMPMGeomechanics(BaseMotion):
     gives the base only the acceleration, MUSL one increment of velocity too much; afterwards all
     planes are fixed.
     """
+
+    afterwards = "all planes are fixed"
 
     def __init__(self, record, remaps, is_plane=True):
         super().__init__(record, is_plane)

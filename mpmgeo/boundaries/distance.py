@@ -6,11 +6,11 @@ Only blocks in a band around the surface are computed, node by node; the others 
 from typing import NamedTuple
 
 import numpy as np
-from numba import prange
 
-from mpmgeo.numerics.jit import blockwise, inlined
+from mpmgeo.numerics.chunks import CHUNKS, blockwise
+from mpmgeo.numerics.jit import inlined
 from mpmgeo.numerics.triangle_tree import DEPTH, FACE, build, closest, nearest
-from mpmgeo.state.grid import CHUNKS, NODES, SIDE
+from mpmgeo.state.layout import NODES, SIDE, axes
 
 FAR = 1e30  # m
 
@@ -73,39 +73,36 @@ def signed_distance(ground, t, x, y, z):
 
 
 @blockwise
-def distances(ground, x, out):
+def distances(c, ground, x, out):
     """Write the signed distances [m] of points x (n, 3) [m]."""
-    for c in prange(CHUNKS):
-        waiting = np.empty(DEPTH, np.int64)
-        t = 0
-        for p in range(c * len(x) // CHUNKS, (c + 1) * len(x) // CHUNKS):
-            t = nearest(ground, x[p, 0], x[p, 1], x[p, 2], t, waiting)
-            out[p] = signed_distance(ground, t, x[p, 0], x[p, 1], x[p, 2])
+    waiting = np.empty(DEPTH, np.int64)
+    t = 0
+    for p in range(c * len(x) // CHUNKS, (c + 1) * len(x) // CHUNKS):
+        t = nearest(ground, x[p, 0], x[p, 1], x[p, 2], t, waiting)
+        out[p] = signed_distance(ground, t, x[p, 0], x[p, 1], x[p, 2])
 
 
 @blockwise
-def fill(ground, mesh, band, corner, out):
+def fill(c, ground, mesh, band, corner, out):
     """Write the distances (blocks, 64) [m] at the nodes of blocks of `corner` (blocks, 3).
 
     Blocks without a point within `band` [m] of the surface get FAR, with the sign of their middle.
     """
     radius = 1.5 * (mesh.hx**2 + mesh.hy**2 + mesh.hz**2) ** 0.5
-    for c in prange(CHUNKS):
-        waiting = np.empty(DEPTH, np.int64)
-        t = 0
-        for b in range(c * len(corner) // CHUNKS, (c + 1) * len(corner) // CHUNKS):
-            ox = mesh.ox + corner[b, 0] * SIDE * mesh.hx
-            oy = mesh.oy + corner[b, 1] * SIDE * mesh.hy
-            oz = mesh.oz + corner[b, 2] * SIDE * mesh.hz
-            x, y, z = ox + 1.5 * mesh.hx, oy + 1.5 * mesh.hy, oz + 1.5 * mesh.hz
+    waiting = np.empty(DEPTH, np.int64)
+    t = 0
+    for b in range(c * len(corner) // CHUNKS, (c + 1) * len(corner) // CHUNKS):
+        ox = mesh.ox + corner[b, 0] * SIDE * mesh.hx
+        oy = mesh.oy + corner[b, 1] * SIDE * mesh.hy
+        oz = mesh.oz + corner[b, 2] * SIDE * mesh.hz
+        x, y, z = ox + 1.5 * mesh.hx, oy + 1.5 * mesh.hy, oz + 1.5 * mesh.hz
+        t = nearest(ground, x, y, z, t, waiting)
+        d = signed_distance(ground, t, x, y, z)
+        if abs(d) > band + radius:
+            out[b] = FAR if d > 0.0 else -FAR
+            continue
+        for n in range(NODES):
+            i, j, k = axes(n)
+            x, y, z = ox + i * mesh.hx, oy + j * mesh.hy, oz + k * mesh.hz
             t = nearest(ground, x, y, z, t, waiting)
-            d = signed_distance(ground, t, x, y, z)
-            if abs(d) > band + radius:
-                out[b] = FAR if d > 0.0 else -FAR
-                continue
-            for n in range(NODES):
-                x = ox + n // 16 * mesh.hx
-                y = oy + n // 4 % 4 * mesh.hy
-                z = oz + n % 4 * mesh.hz
-                t = nearest(ground, x, y, z, t, waiting)
-                out[b, n] = signed_distance(ground, t, x, y, z)
+            out[b, n] = signed_distance(ground, t, x, y, z)

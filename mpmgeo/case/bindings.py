@@ -3,8 +3,8 @@
 import numpy as np
 
 from mpmgeo.boundaries.distance import Ground
-from mpmgeo.mpm.contact import Contact, ContactAsMPMGeomechanics
-from mpmgeo.mpm.tools import Tools
+from mpmgeo.mpm.effects.tools import Tools
+from mpmgeo.mpm.terrain.contact import Contact, ContactAsMPMGeomechanics
 
 RIM = 0.01  # cells by which a point may be beyond the border of a terrain
 MARGIN = 4  # cells around the mesh in which distances are needed

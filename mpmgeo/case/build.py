@@ -10,14 +10,15 @@ from mpmgeo.boundaries.planes import Planes
 from mpmgeo.case.bindings import bind_pressure, bind_terrain, bind_tools
 from mpmgeo.case.populate import populate
 from mpmgeo.case.saturate import saturate
-from mpmgeo.damping import KineticDamping, LocalDamping
 from mpmgeo.loads.point import GHOSTS
 from mpmgeo.materials import saturation
 from mpmgeo.materials.rotation import ROTATIONS
-from mpmgeo.mpm.point_loads import PointLoads
-from mpmgeo.mpm.schemes import SCHEMES, SCHEMES_OF_TWO_PHASES
+from mpmgeo.mpm.effects.base import Base
+from mpmgeo.mpm.effects.point_loads import PointLoads
+from mpmgeo.mpm.effects.reactions import Reactions
+from mpmgeo.mpm.pore_fluid.fluid import PoreFluid
+from mpmgeo.mpm.schemes import SCHEMES
 from mpmgeo.mpm.solver import Solver
-from mpmgeo.mpm.two_phase import PoreFluid
 from mpmgeo.output.particle_fields import WITH_STRAIN
 from mpmgeo.shapes import SHAPES
 from mpmgeo.state.grid import Grid, Mesh
@@ -39,8 +40,8 @@ def build(case):
     mesh = Mesh.of(case.mesh.origin, case.mesh.cells_dimension, case.mesh.cells_number)
     shape = SHAPES[case.shape_function]
     legacy = case.compatibility is not None
-    damping = case.damping.value if isinstance(case.damping, LocalDamping) else 0.0
-    delayed = legacy and case.stress_scheme_update != "USF"
+    models = tuple(model for model in [case.damping.symbols] if model is not None)
+    early = legacy and case.stress_scheme_update != "USF" and models
     tools, tool = bind_tools(case, population, velocity)
     contact = bind_terrain(case, mesh, shape.width, population, notes)
     sets = _sets(case, population, velocity, law, tool, contact is not None, notes)
@@ -48,28 +49,31 @@ def build(case):
         saturate(case, sets, population, law)
     if case.load_state:
         _load_stress(case, sets, len(population.position))
-    schemes = SCHEMES if case.n_phases == 1 else SCHEMES_OF_TWO_PHASES
     lightest = min((float(s.m.min()) for s in sets), default=0.0)
+    base, measured = _base(case, notes), _measured(case)
+    effects = (
+        Base(base) if base else None,
+        tools,
+        _pore_fluid(case),
+        _point_loads(case),
+        contact,
+        Reactions(measured, len(case.prescribed_velocity)) if measured else None,
+        case.damping.effect(),
+    )
     solver = Solver(
         grid=Grid(mesh, shape.width),
         sets=sets,
         population=population,
         shape=shape,
-        scheme=schemes[case.stress_scheme_update],
+        scheme=SCHEMES[case.stress_scheme_update],
         planes=Planes.of(case.mesh.boundary_conditions),
         time_step=time_step(case, velocity),
         gravity=case.gravity,
-        base=_base(case, notes),
-        point_loads=_point_loads(case),
-        local=damping if damping and not delayed else None,
-        delayed=damping if damping and delayed else None,
+        effects=tuple(effect for effect in effects if effect is not None),
+        damping=() if early else models,
+        early_damping=models[0] if early else None,
         leaky=legacy,
-        settles=isinstance(case.damping, KineticDamping),
         cutoff=0.0 if legacy else TOUCH**shape.edge * lightest,
-        tools=tools,
-        fluid=_pore_fluid(case),
-        contact=contact,
-        measured=_measured(case),
     )
     return solver, notes
 

@@ -13,6 +13,45 @@ class Departure(NamedTuple):
     position: np.ndarray  # (3,) of the first [m]
 
 
+class Departures(list):
+    """All departures of a run."""
+
+    def add(self, time, rows, position):
+        """Note that particles in `rows` left at a time [s], the first of them at a position [m]."""
+        self.append(Departure(time, rows, position))
+
+    def first(self):
+        """Return what to tell of the first one, a list of messages."""
+        first = self[0]
+        where = ", ".join(f"{x:.4g}" for x in first.position)
+        return [
+            "particles leave the mesh and take no further part: the first is particle "
+            f"{first.rows[0]}, at ({where}) m after {first.time:.6g} s"
+        ]
+
+    def state(self):
+        """Return the departures as arrays, by name."""
+        if not self:
+            return {}
+        times, rows, positions = zip(*self, strict=True)
+        return {
+            "time": np.array(times),
+            "count": np.array([len(r) for r in rows]),
+            "rows": np.concatenate(rows),
+            "position": np.array(positions),
+        }
+
+    def take(self, state):
+        """Go on with what `state` once returned."""
+        self.clear()
+        if state:
+            time, count, rows, position = (
+                state.pop(name) for name in ("time", "count", "rows", "position")
+            )
+            parts = np.split(rows, np.cumsum(count)[:-1])
+            self.extend(map(Departure, time.tolist(), parts, position))
+
+
 class Unsound(Exception):
     """A particle's state is NaN, infinite or faster than a cell in a step."""
 

@@ -16,7 +16,7 @@ import inspect
 from numba import types
 from numba.extending import overload
 
-from mpmgeo.numerics.jit import OPTIONS, keep_apart
+from mpmgeo.numerics.jit import INLINED, keep_apart
 
 
 def generic(stub):
@@ -66,8 +66,39 @@ def generic(stub):
         return add
 
     function.register = register
-    overload(function, jit_options={**OPTIONS, "forceinline": True})(scope["template"])
+    overload(function, jit_options=INLINED)(scope["template"])
     return function
+
+
+def in_turn(function, *values):
+    """Return `all(models, …)`, which calls an open function for each of a tuple of models in turn.
+
+    What a call returns takes the place of the arguments named in `values`, for the next model and
+    at last as the result. Without a model they are returned as they are.
+    """
+    name = f"{function.__name__}_in_turn"
+    parameters = ", ".join(list(inspect.signature(function).parameters)[1:])
+    result = ", ".join(values)
+
+    def text(count):
+        lines = [
+            f"    {result} = function(models[{number}], {parameters})\n" for number in range(count)
+        ]
+        return f"def {name}(models, {parameters}):\n{''.join(lines)}    return {result}\n"
+
+    def made(count):
+        scope = {"function": function}
+        exec(text(count), scope)
+        return scope[name]
+
+    scope = {"made": made}
+    exec(
+        f"def {name}(models, {parameters}): return made(len(models))(models, {parameters})\n"
+        f"def template(models, {parameters}): return made(len(models))",
+        scope,
+    )
+    overload(scope[name], jit_options=INLINED)(scope["template"])
+    return scope[name]
 
 
 def _is_ours(function):

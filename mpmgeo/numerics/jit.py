@@ -4,14 +4,15 @@ import hashlib
 import os
 import sys
 import tempfile
-import types
 from pathlib import Path
 
 import numba
+from numba.extending import register_jitable
 
 # Without nnan and ninf: the compiler may neither delete a NaN test nor assume that a NaN is inside.
 FAST = {"nsz", "arcp", "contract", "afn", "reassoc"}
 OPTIONS = {"fastmath": FAST, "error_model": "numpy"}
+INLINED = {**OPTIONS, "forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
 
 NO_KERNELS = {"bodies", "case", "loads", "output", "run"}
@@ -22,7 +23,7 @@ def _cache_folder():
     package = Path(__file__).parents[1]
     digest = hashlib.sha256(numba.__version__.encode())
     for folder in sorted(f for f in package.iterdir() if f.is_dir() and f.name not in NO_KERNELS):
-        for source in sorted(folder.glob("*.py")):
+        for source in sorted(folder.rglob("*.py")):
             digest.update(source.read_bytes())
     home = os.environ.get("NUMBA_CACHE_DIR") or os.environ.get("XDG_CACHE_HOME")
     places = [Path(home) if home else Path.home() / ".cache", Path(tempfile.gettempdir())]
@@ -58,36 +59,23 @@ def keep_apart(source):
         function.enable_caching()
 
 
-def _compile(function, **options):
-    dispatcher = numba.njit(cache=bool(numba.config.CACHE_DIR), **OPTIONS, **options)(function)
-    if numba.config.CACHE_DIR:
-        _cached.append(dispatcher)
-    return dispatcher
-
-
 def inlined(function):
     """Compile a helper that disappears into the kernels that call it."""
-    return numba.njit(forceinline=True, **OPTIONS)(function)
+    return numba.njit(**INLINED)(function)
+
+
+def shared(function):
+    """Let kernels call a helper, which disappears in them; Python calls it as it is."""
+    return register_jitable(**INLINED)(function)
 
 
 def compiled(function):
-    """Compile a function for one thread."""
-    return _compile(function)
-
-
-def blockwise(function):
-    """Compile a loop over blocks for threads, and as `.serial` for scenes too small for them.
-
-    Numba's cache tells functions apart by name and not by options, so the serial one gets its own.
-    """
-    twin = types.FunctionType(
-        function.__code__, function.__globals__, function.__name__ + "_serial"
-    )
-    twin.__qualname__ = twin.__name__
-    twin.__module__ = function.__module__
-    threaded = _compile(function, parallel=True)
-    threaded.serial = _compile(twin)
-    return threaded
+    """Compile a function; while it runs, other threads of Python run, too."""
+    folder = bool(numba.config.CACHE_DIR)
+    dispatcher = numba.njit(cache=folder, nogil=True, **OPTIONS)(function)
+    if folder:
+        _cached.append(dispatcher)
+    return dispatcher
 
 
 def prepare():

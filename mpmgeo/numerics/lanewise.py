@@ -9,6 +9,7 @@ from numba.core import types
 from numba.core.extending import intrinsic
 from numba.extending import overload
 
+from mpmgeo.numerics.jit import INLINED
 from mpmgeo.numerics.simd import Vector, broadcast
 
 
@@ -29,7 +30,7 @@ def _lanewise(operation, emit):
 
     apply = intrinsic(instruction)
 
-    @overload(operation)
+    @overload(operation, jit_options=INLINED)
     def implementation(a, b):
         vectors = [isinstance(kind, Vector) for kind in (a, b)]
         if any(vectors) and all(isinstance(kind, (types.Number, Vector)) for kind in (a, b)):
@@ -53,7 +54,7 @@ _lanewise(min, _choose("<"))
 _lanewise(max, _choose(">"))
 
 
-@overload(operator.neg)
+@overload(operator.neg, jit_options=INLINED)
 def _negative(a):
     if isinstance(a, Vector):
         return lambda a: -1.0 * a

@@ -21,14 +21,14 @@ def grid_arrays(solver, node_id, keys):
     nodes = np.array([mesh.nx, mesh.ny, mesh.nz]) + 5
     mass, velocity = np.zeros(len(node_id)), np.zeros((len(node_id), 3))
     if {"active", "mass", "velocity"} & set(keys):
-        index, records = grid.indices().reshape(-1, 3) + 2, grid.records().reshape(-1, 8)
+        index, known = grid.indices().reshape(-1, 3) + 2, grid.solid.at_nodes("mass")
         inside = (index >= 0).all(axis=1) & (index < nodes).all(axis=1)
-        used = inside & (records[:, 6] > solver.cutoff)
-        index, records = index[used], records[used]
+        used = inside & (known > solver.cutoff)
+        index = index[used]
         number = index @ np.array([1, nodes[0], nodes[0] * nodes[1]])
         at = np.searchsorted(node_id, number.astype(np.uint64))
-        mass[at], velocity[at] = records[:, 6], records[:, :3]
-    contact = solver.contact
+        mass[at], velocity[at] = known[used], grid.solid.at_nodes("velocity")[used]
+    ground = solver.ground
     values = {
         "id": lambda: node_id.astype(np.uint64),
         "active": lambda: (mass > 0).astype(np.uint8),
@@ -38,12 +38,12 @@ def grid_arrays(solver, node_id, keys):
         "distance_levelset": lambda: np.zeros(len(node_id)),
         "density_levelset": lambda: np.zeros(len(node_id)),
     }
-    if contact is not None:
-        distance = cache(lambda: contact.distance(_position(mesh, nodes, node_id)))
+    if ground is not None:
+        distance = cache(lambda: ground.distance(_position(mesh, nodes, node_id)))
         values["distance_levelset"] = distance
         values["density_levelset"] = lambda: _density(solver, nodes, node_id)
     arrays = {_NAMES[key]: values[key]() for key in keys}
-    if contact is not None and solver.base is not None:
+    if ground is not None and solver.effect("base") is not None:
         near = 0.25 * (mesh.hx + mesh.hy + mesh.hz) / 3
         arrays["Seismic Node"] = (np.abs(distance()) < near).astype(np.uint8)
     return arrays
@@ -63,7 +63,7 @@ def _index(nodes, node_id):
 
 def _density(solver, nodes, node_id):
     """Return the share of the nodes' volume that particles fill."""
-    density = solver.contact.density(solver).ravel()
+    density = solver.ground.density(solver).ravel()
     index = solver.grid.indices().reshape(-1, 3) + 2
     inside = (index >= 0).all(axis=1) & (index < nodes).all(axis=1) & (density > 0)
     number = index[inside] @ np.array([1, nodes[0], nodes[0] * nodes[1]])

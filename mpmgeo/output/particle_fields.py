@@ -119,9 +119,9 @@ def _external_force(solver, s, at):
 
 
 def _distance(solver, s, at):
-    if solver.contact is None:
+    if solver.ground is None:
         return np.zeros(len(s.row[at]))
-    return solver.contact.distance(s.x[at])
+    return solver.ground.distance(s.x[at])
 
 
 def _contact(first):

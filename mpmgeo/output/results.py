@@ -46,7 +46,7 @@ class ResultFiles:
         self._write(simulation, first=True)
 
     def _collections(self, simulation):
-        terrain = () if simulation.solver.contact is None else (self.terrain,)
+        terrain = () if simulation.solver.ground is None else (self.terrain,)
         return (self.particles, self.grid, *terrain)
 
     def _go_on(self, simulation, path):
@@ -73,7 +73,7 @@ class ResultFiles:
             self._write_particles(simulation, label)
         if first or not self.results.grid_once:
             self._write_grid(simulation, label)
-        if simulation.solver.contact is not None and (first or not self.results.terrain_once):
+        if simulation.solver.ground is not None and (first or not self.results.terrain_once):
             self._write_terrain(simulation, label)
         self.energy.add(label, simulation.output_energy())
         self.written = simulation.steps
@@ -99,9 +99,9 @@ class ResultFiles:
         number = len(self.terrain.entries) + 1
         path = self.terrain.path.parent / f"{TERRAIN}_{number}.vtu"
         solver = simulation.solver
-        centre, normal = solver.contact.triangles()
+        centre, normal = solver.ground.triangles()
         values = {
-            "stl_density_levelset": lambda: solver.contact.density_at(solver, centre),
+            "stl_density_levelset": lambda: solver.ground.density_at(solver, centre),
             "stl_normal": lambda: normal,
         }
         write_points(path, centre, {key: values[key]() for key in self.results.terrain_fields})

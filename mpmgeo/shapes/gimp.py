@@ -17,7 +17,7 @@ class Gimp(NamedTuple):
 
 
 @stencil.register(Gimp)
-def gimp(shape, s, l):
+def gimp(shape, s, l, cut):
     k = 0.25 / l
     a = min(max(l - s, 0.0), 2.0 * l)
     b = min(max(l + s, 0.0), 2.0 * l)

@@ -14,5 +14,5 @@ class Linear(NamedTuple):
 
 
 @stencil.register(Linear)
-def linear(shape, s, l):
+def linear(shape, s, l, cut):
     return 0.5 - s, 0.5 + s, -1.0, 1.0

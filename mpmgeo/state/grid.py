@@ -12,11 +12,15 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mpmgeo.numerics.chunks import CHUNKS
 from mpmgeo.numerics.simd import LANES, aligned
+from mpmgeo.state.field import Field, Lanes
+from mpmgeo.state.layout import NODES, SIDE, blocks_along, volume
 
-SIDE = 4
-NODES = SIDE**3
-CHUNKS = 64  # pieces into which loops over blocks are cut; each has its own scratch tile
+SOLID = Lanes(
+    tile={"mass": (0, 1), "momentum": (1, 3), "force": (4, 3), "mass of tools": (7, 1)},
+    node={"velocity": (0, 3), "acceleration": (3, 3), "mass": (6, 1)},
+)
 
 KEY_BITS = 21
 KEY_SHIFT = 1 << (KEY_BITS - 1)
@@ -65,19 +69,20 @@ def _find(table, keys):
 
 
 class Grid:
-    """Blocks, tiles and nodes for a shape's width; `cover` puts them where the particles are."""
+    """Blocks and the field of the solid for a shape's width; `cover` puts them at the particles."""
 
     def __init__(self, mesh: Mesh, width: int):
         self.mesh = mesh
         self.width = width
         self.side = SIDE + width - 1  # nodes along a tile's edge
-        self.record = self.side**3 * LANES
-        self.reach = 1 + -(-(width - 1) // SIDE)  # blocks along an axis that a tile lies over
+        self.rows = (self.side,) * 3
+        self.record = volume(self.rows) * LANES
+        self.reach = blocks_along(self.side)  # blocks along an axis that a tile lies over
         steps = np.arange(self.reach)
         self._steps = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), -1).reshape(-1, 3)
         self.keys = self.active = np.empty(0, np.int64)
-        self.tiles = self.nodes = aligned(0)
-        self.scratch = aligned(CHUNKS * self.record)
+        self.solid = Field(SOLID)
+        self.scratch = aligned(CHUNKS * self.record)  # a tile for each chunk of a loop
         self.cover(self.keys)
 
     def cover(self, keys):
@@ -93,23 +98,40 @@ class Grid:
             self.below = _find(keys, keys_of(self.active_corner[:, None] - self._steps))
         else:
             self.below = np.empty((0, self.reach**3), np.int64)
-        self.tiles = room(self.tiles, len(keys) * self.side**3)
-        self.nodes = room(self.nodes, len(self.active) * NODES)
+        self.solid.fit(len(keys), volume(self.rows), len(self.active))
         self.nodes[:] = 0.0
         _, now, before = np.intersect1d(self.active, old, return_indices=True)
         self.records()[now] = records[before]  # the last velocities, which damping may ask for
         self.chunk = cut(np.arange(len(self.active) + 1))
 
+    @property
+    def tiles(self):
+        """Return the tiles of the solid."""
+        return self.solid.tiles
+
+    @property
+    def nodes(self):
+        """Return the nodes of the solid."""
+        return self.solid.nodes
+
     def records(self):
         """Return the node records of the active blocks, shape (blocks, 64, 8)."""
-        count = len(self.active)
-        return self.nodes[: count * NODES * LANES].reshape(count, NODES, LANES)
+        return self.solid.records()
 
     def indices(self):
         """Return the node indices of the active blocks, shape (blocks, 64, 3)."""
         steps = np.arange(SIDE)
         inner = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), -1).reshape(-1, 3)
         return self.active_corner[:, None] * SIDE + inner
+
+    def state(self):
+        """Return what a run that goes on needs of the grid, by name."""
+        return {"keys": self.keys, "records": self.records()}
+
+    def take(self, state):
+        """Go on with what `state` once returned."""
+        self.cover(state.pop("keys").copy())
+        np.copyto(self.records(), state.pop("records"))
 
     def nbytes(self):
         """Return the memory of all arrays [bytes]."""
@@ -126,10 +148,3 @@ def cut(start):
     bounds = np.searchsorted(start, share)
     bounds[0], bounds[-1] = 0, len(start) - 1
     return bounds
-
-
-def room(buffer, count):
-    """Return a buffer for `count` records: the old one if it fits and is not far too large."""
-    if count * LANES <= buffer.size <= 2 * count * LANES:
-        return buffer
-    return aligned((count + count // 16) * LANES)

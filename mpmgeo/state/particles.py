@@ -10,6 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mpmgeo.state.grid import cut
+
 ARRAYS = (
     *("row", "x", "v", "m", "V", "stress", "half", "force", "state", "pressure", "strain"),
     *("mf", "vf", "pf", "free", "pull"),
@@ -60,11 +62,27 @@ class ParticleSet:
 
     def __post_init__(self):
         self.start = np.array([0, len(self.row)])  # one heap, until the first sort
-        self.chunk = np.array([0, 1])
+        self.chunk = cut(self.start)
 
     def arrays(self):
         """Return the arrays that are permuted together, by name."""
         return {name: a for name in ARRAYS if isinstance(a := getattr(self, name), np.ndarray)}
+
+    def state(self):
+        """Return what a run that goes on needs of the set, by name."""
+        return self.arrays() | {"start": self.start, "chunk": self.chunk}
+
+    def take(self, state):
+        """Go on with what `state` once returned; ValueError for arrays of other particles."""
+        for name, array in self.arrays().items():
+            found = state.pop(name)
+            if found.shape != array.shape or found.dtype != array.dtype:
+                raise ValueError(
+                    f"the snapshot has an array {found.dtype} {found.shape} where the case needs "
+                    f"{array.dtype} {array.shape}"
+                )
+            np.copyto(array, found)
+        self.start, self.chunk = state.pop("start").copy(), state.pop("chunk").copy()
 
     def stop(self):
         """Set the velocities of the active particles to zero, of both phases."""

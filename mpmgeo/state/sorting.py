@@ -11,9 +11,9 @@ It is put back before it is counted as outside the mesh.
 from typing import NamedTuple
 
 import numpy as np
-from numba import prange
 
-from mpmgeo.numerics.jit import blockwise, compiled, inlined
+from mpmgeo.numerics.chunks import ALONE, CHUNKS, blockwise
+from mpmgeo.numerics.jit import compiled, inlined
 from mpmgeo.state.grid import KEY_BITS, KEY_SHIFT, cut
 
 INSET = 1e-9  # cells: how far from a wall that it passed a particle is put back
@@ -78,30 +78,29 @@ def _corners(mesh, reach, x, p):
 
 
 @blockwise
-def locate(mesh, walls, reach, chunk, start, keys, x, target):
+def locate(c, mesh, walls, reach, chunk, start, keys, x, target):
     """Write the block of each particle: its place in `keys`, OUTSIDE, or UNKNOWN − key.
 
     Particles that passed one of the `walls` are put back.
     """
-    for c in prange(len(chunk) - 1):
-        for b in range(chunk[c], chunk[c + 1]):
-            for p in range(start[b], start[b + 1]):
+    for b in range(chunk[c], chunk[c + 1]):
+        for p in range(start[b], start[b + 1]):
+            i, j, k = _corners(mesh, reach, x, p)
+            if min(i, j, k) == -KEY_SHIFT:
+                w = walls
+                x[p, 0] = _between(x[p, 0], mesh.ox, mesh.hx, mesh.nx, w.x0, w.xn)
+                x[p, 1] = _between(x[p, 1], mesh.oy, mesh.hy, mesh.ny, w.y0, w.yn)
+                x[p, 2] = _between(x[p, 2], mesh.oz, mesh.hz, mesh.nz, w.z0, w.zn)
                 i, j, k = _corners(mesh, reach, x, p)
-                if min(i, j, k) == -KEY_SHIFT:
-                    w = walls
-                    x[p, 0] = _between(x[p, 0], mesh.ox, mesh.hx, mesh.nx, w.x0, w.xn)
-                    x[p, 1] = _between(x[p, 1], mesh.oy, mesh.hy, mesh.ny, w.y0, w.yn)
-                    x[p, 2] = _between(x[p, 2], mesh.oz, mesh.hz, mesh.nz, w.z0, w.zn)
-                    i, j, k = _corners(mesh, reach, x, p)
-                if min(i, j, k) == -KEY_SHIFT:
-                    target[p] = OUTSIDE
-                    continue
-                i, j, k = i + KEY_SHIFT, j + KEY_SHIFT, k + KEY_SHIFT
-                key = (i << 2 * KEY_BITS) | (j << KEY_BITS) | k
-                if b < len(keys) and keys[b] == key:
-                    target[p] = b
-                else:
-                    target[p] = _index(keys, key)
+            if min(i, j, k) == -KEY_SHIFT:
+                target[p] = OUTSIDE
+                continue
+            i, j, k = i + KEY_SHIFT, j + KEY_SHIFT, k + KEY_SHIFT
+            key = (i << 2 * KEY_BITS) | (j << KEY_BITS) | k
+            if b < len(keys) and keys[b] == key:
+                target[p] = b
+            else:
+                target[p] = _index(keys, key)
 
 
 @compiled
@@ -138,15 +137,19 @@ def assign(target, start, places, origin):
 
 
 @blockwise
-def permute(a, places, origin, rows):
-    """Move row `places[origin[i]]` of a to row `places[i]`, by way of `rows`."""
-    width = a.shape[1]
-    for i in prange(len(origin)):
-        for c in range(width):
-            rows[i, c] = a[places[origin[i]], c]
-    for i in prange(len(origin)):
-        for c in range(width):
-            a[places[i], c] = rows[i, c]
+def take(c, a, places, origin, rows):
+    """Copy row `places[origin[i]]` of a to row i of `rows`."""
+    for i in range(c * len(origin) // CHUNKS, (c + 1) * len(origin) // CHUNKS):
+        for column in range(a.shape[1]):
+            rows[i, column] = a[places[origin[i]], column]
+
+
+@blockwise
+def put(c, a, places, rows):
+    """Copy row i of `rows` to row `places[i]` of a."""
+    for i in range(c * len(places) // CHUNKS, (c + 1) * len(places) // CHUNKS):
+        for column in range(a.shape[1]):
+            a[places[i], column] = rows[i, column]
 
 
 def _rows(a):
@@ -171,7 +174,7 @@ def _add_blocks(grid, sets, targets):
     grid.cover(keys)
 
 
-def sort(grid, sets, serial, walls=OPEN):
+def sort(grid, sets, crew, walls=OPEN):
     """Sort all particle sets by block after some particle left its block.
 
     `walls`: planes through which no particle leaves the mesh.
@@ -183,8 +186,7 @@ def sort(grid, sets, serial, walls=OPEN):
     targets = []
     for s in sets:
         target = np.empty(s.active, np.int64)
-        kernel = locate.serial if serial else locate
-        kernel(grid.mesh, walls, reach, s.chunk, s.start, grid.keys, s.x, target)
+        locate(crew, grid.mesh, walls, reach, s.chunk, s.start, grid.keys, s.x, target)
         targets.append(target)
     if any(len(t) and t.min() <= UNKNOWN for t in targets):
         _add_blocks(grid, sets, targets)
@@ -196,13 +198,14 @@ def sort(grid, sets, serial, walls=OPEN):
         moves = assign(target, start, places, origin)
         places, origin = places[:moves], origin[:moves]
         if moves:
-            rows = np.empty(moves * 6)
+            rows, movers = np.empty(moves * 6), ALONE if moves <= FEW else crew
             for a in map(_rows, s.arrays().values()):
                 width = a.shape[1]
-                kernel = permute.serial if moves <= FEW else permute
                 if moves * width > rows.size:
                     rows = np.empty(moves * width)
-                kernel(a, places, origin, rows[: moves * width].reshape(moves, width))
+                moved = rows[: moves * width].reshape(moves, width)
+                take(movers, a, places, origin, moved)
+                put(movers, a, places, moved)
         s.start = start[:-1]
         s.chunk = cut(s.start)
         left.append(int(counts[-1]))

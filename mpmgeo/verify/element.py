@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mpmgeo.materials.rotation import ROTATIONS
-from mpmgeo.mpm.point import advance
+from mpmgeo.mpm.core.point import advance
 from mpmgeo.numerics.jit import compiled
 
 COMPONENTS = ("xx", "yy", "zz", "xy", "yz", "xz")

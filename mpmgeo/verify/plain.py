@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mpmgeo.boundaries.planes import FIXED, SLIDING
-from mpmgeo.mpm.point import advance
+from mpmgeo.mpm.core.point import advance
 from mpmgeo.mpm.schemes import musl, usf, usl
 from mpmgeo.numerics.jit import compiled, inlined
 from mpmgeo.shapes.shape import stencil, width
@@ -63,7 +63,7 @@ def stencil_along(axis, shape, box, half, x, p):
     S = width(shape)
     g = (x[p, axis] - box.origin[axis]) / box.cell[axis]
     first = floor(g - 0.5 * (S - 2))
-    return first + box.ghosts, stencil(shape, g - first - 0.5 * (S - 1), half[p, axis])
+    return first + box.ghosts, stencil(shape, g - first - 0.5 * (S - 1), half[p, axis], None)
 
 
 @inlined
@@ -215,10 +215,11 @@ class PlainSolver:
     """
 
     def __init__(self, solver):
-        if any((solver.base, solver.point_loads, solver.tools, solver.delayed, solver.settles)):
+        if solver.effects or solver.early_damping or len(solver.damping) > 1:
             raise ValueError("the plain solver has gravity, box loads and local damping only")
         self.shape, self.time_step, self.steps = solver.shape, solver.time_step, solver.steps
-        self.local, self.cutoff = solver.local, solver.cutoff
+        self.local = solver.damping[0].α if solver.damping else None
+        self.cutoff = solver.cutoff
         mesh = solver.grid.mesh
         self.box = Box(mesh[:3], mesh[3:6], mesh[9:], ghosts=(width(solver.shape) + 1) // 2)
         self.free = free_components(self.box, solver.planes)

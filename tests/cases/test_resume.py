@@ -9,7 +9,7 @@ import pytest
 
 import mpmgeo
 from mpmgeo.case.load import load_case
-from mpmgeo.mpm.persistence import state_of
+from mpmgeo.mpm.persistence import snapshot_of
 
 DT = 4e-3
 STEPS = 42
@@ -144,7 +144,7 @@ def content(folder):
 
 
 def assert_same_state(one, other):
-    first, second = state_of(one.solver), state_of(other.solver)
+    first, second = snapshot_of(one.solver), snapshot_of(other.solver)
     assert first.facts == second.facts
     assert first.arrays.keys() == second.arrays.keys()
     for name, array in first.arrays.items():
@@ -168,7 +168,7 @@ def test_the_record_has_ended_before_the_snapshot(folder, keys):
     case = load_case(case_of(**keys))
     whole = mpmgeo.Simulation(case).run()
     resumed = killed_and_resumed(case, folder / "parts", 35)
-    assert resumed.solver.base.ended
+    assert resumed.solver.effect("base").motion.ended
     assert_same_state(whole, resumed)
 
 

@@ -84,7 +84,9 @@ def test_label_of_mpm_geomechanics_is_a_step_early():
 def test_damping_reaches_the_solver(damping, compatibility, expected):
     extra = {} if compatibility is None else {"compatibility": compatibility}
     solver = simulate(two_blocks(damping=damping, **extra)).solver
-    assert (solver.local, solver.delayed, solver.settles) == expected
+    local = solver.damping[0].α if solver.damping else None
+    delayed = None if solver.early_damping is None else solver.early_damping.α
+    assert (local, delayed, solver.effect("kinetic damping") is not None) == expected
 
 
 @pytest.mark.parametrize("shape, share", [("GIMP", 1e-24), ("linear", 1e-12)])

@@ -143,7 +143,7 @@ def test_a_slope_that_moves_carries_a_rough_block_along(tmp_path):
     simulation = simulate(case | {"earthquake": record(tmp_path, rows)})
     exact = np.array([0.5 * 2 * 0.25 + 0.4 - 0.16, 0.125 + 0.2 - 0.08, 0.0])
     simulation.run()
-    assert simulation.solver.contact.offset == pytest.approx(exact, abs=2e-3)
+    assert simulation.solver.ground.offset == pytest.approx(exact, abs=2e-3)
     assert simulation.field("displacement").mean(axis=0) == pytest.approx(exact, abs=5e-3)
     distance = simulation.field("distance_levelset")
     assert distance.min() == pytest.approx(LAYER, abs=1e-3)

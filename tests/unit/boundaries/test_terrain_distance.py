@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import terrains
 
+from mpmgeo.numerics.chunks import ALONE
 from mpmgeo.boundaries.distance import FAR, Ground, distances, fill
 from mpmgeo.boundaries.surface import surface_of
 from mpmgeo.state.grid import Mesh
@@ -18,7 +19,7 @@ def ground(corner, low=3 * [-1e9], high=3 * [1e9], **keys):
 
 def measured(corner, x, **keys):
     out = np.empty(len(x))
-    distances.serial(ground(corner, **keys), np.asarray(x, float), out)
+    distances(ALONE, ground(corner, **keys), np.asarray(x, float), out)
     return out
 
 
@@ -96,7 +97,7 @@ def test_blocks_of_nodes():
     mesh = Mesh.of((-2.0, -2.0, -2.0), (0.25, 0.2, 0.125), (16, 20, 32))
     corner = np.stack(np.meshgrid(range(4), range(5), range(8), indexing="ij"), -1).reshape(-1, 3)
     out = np.empty((len(corner), 64))
-    fill.serial(ground(HILL), mesh, 0.3, corner, out)
+    fill(ALONE, ground(HILL), mesh, 0.3, corner, out)
     x = nodes_of(mesh, corner)
     exact = measured(HILL, x.reshape(-1, 3)).reshape(out.shape)
     near = np.abs(out) < FAR
@@ -113,7 +114,7 @@ def test_a_surface_that_ends_with_the_mesh_goes_on_straight():
     slope = terrains.patch(lambda x, y: 1.0 + 0.5 * x, 0.0, 4.0, 8)
     corner = np.array([[-1, 0, 0], [2, 0, 1], [0, -1, 0], [-1, -1, 0], [2, 2, 1]])
     out = np.empty((len(corner), 64))
-    fill.serial(ground(slope, [0, 0, 0], [4, 4, 4]), mesh, 10.0, corner, out)
+    fill(ALONE, ground(slope, [0, 0, 0], [4, 4, 4]), mesh, 10.0, corner, out)
     x = nodes_of(mesh, corner)
     exact = (x[..., 2] - 1.0 - 0.5 * x[..., 0]) / np.hypot(1, 0.5)
     assert out == pytest.approx(exact)

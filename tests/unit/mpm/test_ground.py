@@ -6,6 +6,7 @@ import terrains
 from terrains import on_slope, simulate
 
 import mpmgeo
+from mpmgeo.numerics.chunks import ALONE
 
 
 @pytest.mark.parametrize("offset", [(0.0, 0.0, 0.0), (0.3, 0.0, 0.0), (-5.7, 2.2, 1.9)])
@@ -13,8 +14,8 @@ def test_tiles_hold_the_distances_of_the_nodes_under_them(tmp_path, offset):
     simulation = simulate(on_slope(tmp_path, 20, 0.3))
     solver = simulation.solver
     solver.arrange()
-    near, grid = solver.contact.near, solver.grid
-    near.arrange(grid, offset, True)
+    near, grid = solver.ground.near, solver.grid
+    near.arrange(grid, offset, ALONE)
     side = 4 + grid.width
     level = near.level[:-8].reshape(-1, side, side, side)
     assert len(near.near) or offset[2] > 1
@@ -42,7 +43,7 @@ def test_a_run_goes_on_bit_by_bit_after_a_snapshot(tmp_path):
         simulation.step(40)
     for key in ("position", "velocity", "stress", "particle_contact_force", "distance_levelset"):
         assert (whole.field(key) == resumed.field(key)).all()
-    assert whole.solver.contact.offset == resumed.solver.contact.offset
+    assert whole.solver.ground.offset == resumed.solver.ground.offset
     assert whole.field("particle_contact_flag").any()
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from assembly import assemble, by_row, nodes
 
-from mpmgeo.mpm.point_loads import PointLoads
+from mpmgeo.mpm.effects.point_loads import PointLoads
 from mpmgeo.shapes import SHAPES
 
 SCHEMES = pytest.mark.parametrize("scheme", ["USL", "MUSL", "USF"])
@@ -15,7 +15,7 @@ FORCE = np.array([1.0, -2.0, 3.0])
 def loaded(node, force, steps=1, **more):
     """Return a solver of three particles after some steps with forces (k, 3) on nodes (k, 3)."""
     loads = PointLoads(node, force)
-    solver = assemble(PLACE, mass=2.0, point_loads=loads, **more)
+    solver = assemble(PLACE, mass=2.0, effects=(loads,), **more)
     for _ in range(steps):
         solver.step()
     return solver
@@ -59,19 +59,19 @@ def test_many_on_one_node():
 def test_on_an_empty_node_nothing_is_stored_up(node):
     """In an active block and far from all of them; nor does it act once mass has come."""
     solver = loaded([node], [FORCE * 1e6], steps=5)
-    assert solver.point_loads.idle(solver.grid).tolist() == [True]
+    assert solver.effect("point loads").idle(solver.grid).tolist() == [True]
     assert not by_row(solver, "v").any()
 
 
 def test_idle_loads():
     solver = loaded([[4, 4, 4], [9, 9, 9], [4, 7, 8]], [FORCE] * 3)
-    assert solver.point_loads.idle(solver.grid).tolist() == [False, True, False]
+    assert solver.effect("point loads").idle(solver.grid).tolist() == [False, True, False]
 
 
 def test_loads_find_their_nodes_again_when_blocks_change():
     """A particle comes to a loaded node through several blocks, feels it, and goes on."""
     loads = PointLoads([[10, 5, 5]], [[0.0, 0.0, 1.0]])
-    solver = assemble([[1.6, 5.0, 5.0]], velocity=(50.0, 0.0, 0.0), point_loads=loads)
+    solver = assemble([[1.6, 5.0, 5.0]], velocity=(50.0, 0.0, 0.0), effects=(loads,))
     impulse = 0.0
     for _ in range(195):
         before = by_row(solver, "v")[0, 2]

@@ -8,7 +8,7 @@ from models import Counting
 from mpmgeo.boundaries.planes import BASE
 from mpmgeo.mpm.incidents import Unsound
 from mpmgeo.mpm.solver import SMALL
-from mpmgeo.mpm.tools import Tools
+from mpmgeo.mpm.effects.tools import Tools
 from mpmgeo.shapes import SHAPES
 
 DT = 1e-3
@@ -88,7 +88,7 @@ class Pushed:
         {"planes": planes("sliding", plane_Z0="free")},
         {"planes": planes("sliding"), "leaky": True},
         {"planes": planes("sliding")._replace(z0=BASE)},
-        {"planes": planes("sliding"), "tools": Tools([Pushed()], [(2, 0)])},
+        {"planes": planes("sliding"), "effects": (Tools([Pushed()], [(2, 0)]),)},
     ],
 )
 def test_who_passes_what_is_no_wall_leaves(keys):

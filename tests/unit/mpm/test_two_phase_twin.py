@@ -53,7 +53,7 @@ class Twin:
         mesh, n = solver.grid.mesh, solver.count
         self.box = Box(mesh[:3], mesh[3:6], mesh[9:], ghosts=3)
         self.planes = free_components(self.box, solver.planes).reshape(-1, 3)
-        self.walls = free_components(self.box, solver.fluid.walls).reshape(-1, 3)
+        self.walls = free_components(self.box, solver.effect("fluid").walls).reshape(-1, 3)
         for name in ("x", "v", "vf", "stress", "m", "mf", "pf", "V", "pull", "half", "free"):
             first = getattr(solver.sets[0], name)
             columns = 3 if name == "half" else first.shape[1] if first.ndim > 1 else 0
@@ -76,7 +76,7 @@ class Twin:
             g = (x - self.box.origin) / self.box.cell
             first = np.floor(g - 0.5 * (S - 2)).astype(int)
             parts = [
-                np.array(stencil(self.s.shape, g[a] - first[a] - 0.5 * (S - 1), self.half[p, a]))
+                np.array(stencil(self.s.shape, g[a] - first[a] - 0.5 * (S - 1), self.half[p, a], None))
                 for a in range(3)
             ]
             i, j, k = (slice(f + self.box.ghosts, f + self.box.ghosts + S) for f in first)

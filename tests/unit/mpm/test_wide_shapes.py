@@ -26,7 +26,7 @@ def plain_step(solver, h):
     g = (x - ORIGIN) / CELL
     first = np.floor(g - 0.5 * (ghosts - 2)).astype(int)
     s = g - first - 0.5 * (ghosts - 1)
-    values = [[stencil(shape, s[p, a], HALF[a]) for a in range(3)] for p in range(len(x))]
+    values = [[stencil(shape, s[p, a], HALF[a], None) for a in range(3)] for p in range(len(x))]
     N, G = np.split(np.array(values), 2, axis=2)
     G = G / CELL[:, None]
     σ = stress[:, [[0, 3, 5], [3, 1, 4], [5, 4, 2]]]

@@ -30,7 +30,7 @@ def test_terrain_files_hold_what_was_asked_for(tmp_path):
     assert points["stl_normal"] == pytest.approx(np.tile([0, 0, 1], (2, 1)))
     assert points["stl_density_levelset"].shape == (2,)
     assert points.points == pytest.approx(terrains.plane().mean(axis=1), rel=1e-6)
-    assert simulation.solver.contact is not None
+    assert simulation.solver.ground is not None
 
 
 def test_by_default_the_terrain_is_written_once(tmp_path):
@@ -71,7 +71,7 @@ def test_distances_and_forces_are_in_the_files(tmp_path):
 def test_the_density_between_nodes(tmp_path):
     """Full inside a body, half at its face, nothing outside."""
     simulation = simulate(on_slope(tmp_path, 0, 0.5, size=(4, 4, 4)))
-    contact = simulation.solver.contact
+    contact = simulation.solver.ground
     x = np.array([[2.0, 2, 2], [2, 2, 0], [2, 2, 20], [2, 0, 0], [1e9, 0, 0]])
     assert contact.density_at(simulation.solver, x) == pytest.approx([1, 0.5, 0, 0.25, 0])
 

@@ -26,10 +26,10 @@ def weight_and_slope(x, l):
 @pytest.mark.parametrize("s", [*np.linspace(-0.5, 0.5, 21), -0.25, 0.25, 0.1, -0.1])
 def test_all_cases(s, l):
     expected = [weight_and_slope(s - node, l) for node in (-1, 0, 1)]
-    result = np.reshape(stencil(Gimp(), s, l), (2, 3)).T
+    result = np.reshape(stencil(Gimp(), s, l, None), (2, 3)).T
     np.testing.assert_allclose(result, expected, rtol=1e-12, atol=1e-13)
 
 
 def test_particle_of_a_cell_on_a_node():
     """Check values of MPM-Geomechanics' own test."""
-    assert stencil(Gimp(), 0.0, 0.5)[:3] == (0.125, 0.75, 0.125)
+    assert stencil(Gimp(), 0.0, 0.5, None)[:3] == (0.125, 0.75, 0.125)

@@ -7,6 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from models import Spline6, Spline10
 
+from mpmgeo.numerics.chunks import ALONE, Crew
 from mpmgeo.shapes import SHAPES
 from mpmgeo.state.grid import corners_of
 from mpmgeo.state.sorting import Walls, sort
@@ -61,7 +62,7 @@ def check_order(grid, s):
 def test_first_sort(width):
     grid, sets = scattered(500, width=width)
     before = snapshot(sets[0])
-    assert sort(grid, sets, True) == [0]
+    assert sort(grid, sets, ALONE) == [0]
     check_order(grid, sets[0])
     assert (snapshot(sets[0]) == before).all()
     assert len(grid.keys) == len(np.unique(base_corner(sets[0].x, width), axis=0))
@@ -75,7 +76,7 @@ moves = st.lists(st.tuples(st.integers(0, 59), st.tuples(*[st.floats(-0.3, 1.3)]
 def test_any_moves(rounds, split):
     """Whatever moves wherever, particles stay the same ones and end up in order."""
     grid, sets = scattered(60, split=split)
-    sort(grid, sets, True)
+    sort(grid, sets, ALONE)
     gone = 0
     for moved in rounds:
         place = {row: (s, p) for s in sets for p, row in enumerate(s.row.tolist())}
@@ -84,7 +85,7 @@ def test_any_moves(rounds, split):
             if p < s.active:
                 s.x[p] = LOW + np.array(share) * (HIGH - LOW)
         before = [snapshot(s) for s in sets]
-        gone += sum(sort(grid, sets, True))
+        gone += sum(sort(grid, sets, ALONE))
         for s, table in zip(sets, before, strict=True):
             check_order(grid, s)
             assert (snapshot(s) == table).all()
@@ -100,7 +101,7 @@ def test_rows_and_state_move_along():
     s.force = s.x.copy()
     s.state = np.column_stack([s.m, -s.m])
     rows = dict(zip(s.m.tolist(), s.row.tolist(), strict=True))
-    sort(grid, sets, True)
+    sort(grid, sets, ALONE)
     assert s.row.dtype == np.int64
     assert [rows[m] for m in s.m.tolist()] == s.row.tolist()
     assert (s.force == s.x).all()
@@ -112,14 +113,14 @@ def test_only_necessary_moves():
     """A particle whose place is still in its block's range stays there."""
     grid, sets = scattered(3000)
     s = sets[0]
-    sort(grid, sets, True)
+    sort(grid, sets, ALONE)
     s.x[[50, 1700]] = s.x[7]
     block = {tuple(c): b for b, c in enumerate(grid.corner.tolist())}
     target = [block[tuple(c)] for c in base_corner(s.x, 3).tolist()]
     start = np.concatenate([[0], np.cumsum(np.bincount(target, minlength=len(block)))])
     stays = [start[t] <= p < start[t + 1] for p, t in enumerate(target)]
     before = s.row.copy()
-    sort(grid, sets, True)
+    sort(grid, sets, ALONE)
     assert (s.start == start).all()
     assert np.count_nonzero(stays) > 2500
     assert (s.row[stays] == before[stays]).all()
@@ -127,22 +128,21 @@ def test_only_necessary_moves():
 
 def test_sorting_twice_changes_nothing():
     grid, sets = scattered(300)
-    sort(grid, sets, True)
+    sort(grid, sets, ALONE)
     keys, row = grid.keys, sets[0].row.copy()
-    assert sort(grid, sets, True) == [0]
+    assert sort(grid, sets, ALONE) == [0]
     assert (sets[0].row == row).all() and grid.keys is keys
 
 
-def test_order_does_not_depend_on_threads(threads):
+def test_order_does_not_depend_on_threads():
     orders = []
-    for serial, count in ((True, 1), (False, 1), (False, 2)):
-        threads(count)
+    for crew in (ALONE, Crew.of(2)):
         grid, sets = scattered(3000, split=2)
         random = np.random.default_rng(5)
         for _ in range(3):
             for s in sets:
                 s.x[: s.active] += random.normal(0, 0.3, (s.active, 3))
-            sort(grid, sets, serial)
+            sort(grid, sets, crew)
         orders.append(np.concatenate([*(s.row for s in sets), *(s.start for s in sets)]))
     assert all((order == orders[0]).all() for order in orders)
 
@@ -150,7 +150,7 @@ def test_order_does_not_depend_on_threads(threads):
 def test_outside_and_nan_go_behind_for_good():
     grid, sets = scattered(50)
     s = sets[0]
-    sort(grid, sets, True)
+    sort(grid, sets, ALONE)
     bad = [
         [np.nan, 1.0, 3.0],
         [0.0, np.inf, 3.0],
@@ -161,12 +161,12 @@ def test_outside_and_nan_go_behind_for_good():
     ]
     rows = s.row[:6].copy()
     s.x[:6] = bad
-    assert sort(grid, sets, True) == [6]
+    assert sort(grid, sets, ALONE) == [6]
     assert s.active == 44 and set(s.row[44:]) == set(rows)
     s.x[44:] = LOW + 0.1  # back inside, but it has left
     s.x[0] = np.nan
     late = s.row[0]
-    assert sort(grid, sets, True) == [1]
+    assert sort(grid, sets, ALONE) == [1]
     assert s.active == 43 and s.row[43] == late
     check = np.isin(s.row[:43], [*rows, late])
     assert not check.any()
@@ -175,7 +175,7 @@ def test_outside_and_nan_go_behind_for_good():
 def test_who_passes_a_wall_is_put_back():
     grid, sets = scattered(50)
     s = sets[0]
-    sort(grid, sets, True)
+    sort(grid, sets, ALONE)
     cell = np.array(CELL)
     s.x[0], s.x[1] = LOW - 0.1 * cell, HIGH + 0.1 * cell
     s.x[2:6] = [
@@ -186,7 +186,7 @@ def test_who_passes_a_wall_is_put_back():
     ]
     row = s.row[:6].copy()
     walls = Walls(x0=True, y0=True, z0=True, xn=True, zn=True)
-    assert sort(grid, sets, True, walls) == [3]
+    assert sort(grid, sets, ALONE, walls) == [3]
     check_order(grid, s)
     assert set(s.row[s.active :]) == set(row[[1, 4, 5]])
     x = s.x[np.argsort(s.row)][row]
@@ -198,7 +198,7 @@ def test_the_mesh_is_a_closed_box():
     corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
     grid, sets = scattered(8)
     sets[0].x[:] = LOW + corners * (HIGH - LOW)
-    assert sort(grid, sets, True) == [0]
+    assert sort(grid, sets, ALONE) == [0]
     check_order(grid, sets[0])
 
 
@@ -207,7 +207,7 @@ def test_sets_share_blocks():
     grid, sets = scattered(300, split=3)
     sets[1].x[:] = LOW + 0.1
     sets[2].x[:] = HIGH + 1.0
-    assert sort(grid, sets, True) == [0, 0, 100]
+    assert sort(grid, sets, ALONE) == [0, 0, 100]
     for s in sets:
         check_order(grid, s)
     assert sets[0].active == 100 and sets[1].active == 100 and sets[2].active == 0
@@ -217,14 +217,14 @@ def test_sets_share_blocks():
 
 def test_all_particles_leave():
     grid, sets = scattered(20)
-    sort(grid, sets, True)
+    sort(grid, sets, ALONE)
     sets[0].x += 1000.0
-    assert sort(grid, sets, True) == [20]
+    assert sort(grid, sets, ALONE) == [20]
     assert sets[0].active == 0
-    assert sort(grid, sets, True) == [0]
+    assert sort(grid, sets, ALONE) == [0]
 
 
 def test_no_particles():
     grid, sets = scattered(0)
-    assert sort(grid, sets, True) == [0]
+    assert sort(grid, sets, ALONE) == [0]
     assert len(grid.keys) == 0

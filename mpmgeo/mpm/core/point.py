@@ -5,7 +5,7 @@ from numba.np.unsafe.ndarray import to_fixed_tuple
 
 from mpmgeo.materials.law import update_stress
 from mpmgeo.materials.rotation import rotate_stress
-from mpmgeo.numerics.jit import inlined
+from mpmgeo.numerics.jit import INLINED, inlined
 from mpmgeo.numerics.simd import add, lane, load_column, load_row, pack, scale, with_velocity
 
 
@@ -61,7 +61,7 @@ def _state_of(law, state, p):
     return tuple(state[p]) if state is not None else ()
 
 
-@overload(_state_of, jit_options={"forceinline": True})
+@overload(_state_of, jit_options=INLINED)
 def _compiled_state_of(law, state, p):
     count = len(law.instance_class.STATE)
     if count == 0:
@@ -75,7 +75,7 @@ def _keep_state(law, state, p, new):
         state[p] = new[6:]
 
 
-@overload(_keep_state, jit_options={"forceinline": True})
+@overload(_keep_state, jit_options=INLINED)
 def _compiled_keep_state(law, state, p, new):
     # number by number: after a loop the compiler would count references, for every particle
     numbers = range(len(law.instance_class.STATE))

@@ -2,14 +2,15 @@
 
 import numpy as np
 
-from mpmgeo.numerics.simd import LANES
-from mpmgeo.state.grid import SIDE, keys_of
+from mpmgeo.effect import Effect
+from mpmgeo.state.grid import keys_of
+from mpmgeo.state.layout import NODES, SIDE, inner, place, volume
 
-MASS, FORCE = 0, slice(4, 7)
 
-
-class PointLoads:
+class PointLoads(Effect):
     """Constant forces (k, 3) [N] on the nodes of index (k, 3)."""
+
+    name = "point loads"
 
     def __init__(self, node, force):
         self.node = np.asarray(node, np.int64)
@@ -17,7 +18,7 @@ class PointLoads:
         self._keys = None
 
     def _find(self, grid):
-        """Find a tile that covers each node, and the node's record in it."""
+        """Find a tile that covers each node, and the node's record among those of all tiles."""
         corner = self.node // SIDE
         self._keys = grid.keys
         self._owner = np.full(len(self.node), -1)
@@ -29,26 +30,32 @@ class PointLoads:
             for owner in grid.below[block]:
                 local = self.node[index] - grid.corner[owner] * SIDE
                 if owner >= 0 and (local < grid.side).all():
-                    record = (local[0] * grid.side + local[1]) * grid.side + local[2]
                     self._owner[index] = owner
-                    self._at[index] = owner * grid.record + record * LANES
+                    self._at[index] = owner * volume(grid.rows) + place(grid.rows, *local)
                     break
 
-    def apply(self, grid):
+    def before_nodes(self, solver, task):
         """Add the forces to the tiles; one on a node that no tile covers does nothing."""
+        grid = solver.grid
         if self._keys is not grid.keys:
             self._find(grid)
-        records = grid.tiles.reshape(-1, LANES)
         covered = self._owner >= 0
-        np.add.at(records[:, FORCE], self._at[covered] // LANES, self.force[covered])
+        np.add.at(grid.solid.in_tiles("force"), self._at[covered], self.force[covered])
+
+    def news(self, solver):
+        """Tell, once the nodes have their masses, of loads that act on nothing."""
+        yield "point loads", lambda: [
+            f"nodal_point_load, entry {number}: its node carries no mass at the start; "
+            "the force acts only while material is there"
+            for number in np.flatnonzero(self.idle(solver.grid)) + 1
+        ]
 
     def idle(self, grid):
         """Return which loads (k,) act on a node without mass, and so on nothing."""
         mass = np.zeros(len(self.node))
-        records, keys = grid.records(), keys_of(self.node // SIDE)
-        for index, (key, inner) in enumerate(zip(keys, self.node % SIDE, strict=True)):
+        known, keys = grid.solid.at_nodes("mass"), keys_of(self.node // SIDE)
+        for index, (key, at) in enumerate(zip(keys, self.node % SIDE, strict=True)):
             block = np.searchsorted(grid.active, key)
             if block < len(grid.active) and grid.active[block] == key:
-                n = (inner[0] * SIDE + inner[1]) * SIDE + inner[2]
-                mass[index] = records[block, n, 6]
+                mass[index] = known[block * NODES + inner(*at)]
         return mass == 0.0

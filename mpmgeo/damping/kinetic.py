@@ -1,0 +1,48 @@
+"""Kinetic damping: all particles stop whenever the kinetic energy has passed a peak (Cundall 1982).
+
+Each stop takes what has become of the work of the forces; what is left swings less about a state of
+rest.
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from mpmgeo.damping.damping import Damping
+from mpmgeo.effect import Effect
+
+
+@dataclass(frozen=True)
+class KineticDamping(Damping):
+    """All velocities set to zero whenever the kinetic energy has passed a peak (Cundall 1982)."""
+
+    type: ClassVar[str] = "kinetic"
+
+    def effect(self):
+        """Return what stops the particles."""
+        return Stops()
+
+
+class Stops(Effect):
+    """Stops all particles at peaks of the kinetic energy."""
+
+    name = "kinetic damping"
+
+    def __init__(self):
+        self.last = 0.0  # kinetic energy after the last step [J]
+
+    def end(self, solver):
+        """Compare the kinetic energy with that of the step before."""
+        energy = solver.peak_energy = solver.kinetic_energy()
+        if energy < self.last:
+            solver.stop()
+            energy = 0.0
+        self.last = energy
+        solver.clock.lap(self.name)
+
+    def state(self):
+        """Return the energy to compare with."""
+        return {"last_energy": self.last}
+
+    def take(self, state):
+        """Go on with what `state` once returned."""
+        self.last = state.pop("last_energy")

@@ -1,0 +1,148 @@
+"""Transfers between particles and nodes: scatter (P2G), gather (G2P) and both in one pass.
+
+Record of a tile: m, m v (3), f (3), m of tools. Record of a node: v (3), a (3), m, spare.
+"""
+
+from typing import NamedTuple
+
+from mpmgeo.mpm.core.loops import visit
+from mpmgeo.mpm.core.point import (
+    advance,
+    internal_force,
+    momentum_and_weight,
+    spin_increment,
+    strain_increment,
+)
+from mpmgeo.mpm.core.tile import (
+    collect,
+    collect_value,
+    deposit,
+    deposit_value,
+    in_block,
+    locate,
+)
+from mpmgeo.numerics.jit import inlined
+from mpmgeo.numerics.simd import add, axpy, load_row, pack, quarter, splat, store_row, within
+
+
+class Scatter(NamedTuple):
+    """Add mass, momentum and force to the tiles.
+
+    Arrays: v, m, V, stress, or None to leave out the internal force, pressure of a pore fluid or
+    None, load beside gravity or None.
+    """
+
+    gravity: tuple
+    tool: float  # 1 if the velocity of the particles is prescribed, else 0
+
+
+@visit.register(Scatter)
+def scatter(work, here, a, p):
+    v, m, V, stress, pressure, force = a
+    g = work.gravity
+    weight = pack(1.0, 0.0, 0.0, 0.0, g[0], g[1], g[2], work.tool)
+    n, wx, wy, wz = locate(here, p)
+    C0 = _loaded(momentum_and_weight(m, v, weight, p), force, p)
+    _deposit_all(here, n, wx, wy, wz, C0, V, stress, pressure, p)
+    return 0
+
+
+@inlined
+def _loaded(C0, force, p):
+    if force is None:
+        return C0
+    return add(C0, pack(0.0, 0.0, 0.0, 0.0, force[p, 0], force[p, 1], force[p, 2], 0.0))
+
+
+@inlined
+def _deposit_all(here, n, wx, wy, wz, C0, V, stress, pressure, p):
+    if stress is None:
+        deposit_value(here.tiles[0], here.n0 + n, here.rows, wx, wy, wz, C0)
+    else:
+        C1, C2, C3 = internal_force(here.mesh, V, stress, pressure, p)
+        deposit(here.tiles[0], here.n0 + n, here.rows, wx, wy, wz, C0, C1, C2, C3)
+
+
+class Gather(NamedTuple):
+    """Move the particles with the nodes and update their stress; tells who left its block.
+
+    Velocities change by h times the acceleration. With v None they stay, and positions follow the
+    velocity that `Velocity` kept. With `law` None volume and stress stay. Arrays: v, V, stress, the
+    law's variables, sum of strains, the last two None where there are none.
+    """
+
+    law: object
+    rotation: object
+    dt: float
+    h: float
+
+
+@visit.register(Gather)
+def gather(work, here, a, p):
+    v, V, stress, state, total = a
+    n, wx, wy, wz = locate(here, p)
+    value, sx, sy, sz = collect(here.source, n, here.rows, wx, wy, wz)
+    X = _moved(work, here.x, v, value, p)
+    store_row(here.x, p, X)
+    _strained(work, work.law, here.mesh, sx, sy, sz, V, stress, state, total, p)
+    return 0 if within(in_block(here.mesh, here.origin, X), here.low, here.high) else 1
+
+
+@inlined
+def _moved(work, x, v, value, p):
+    """Return the new position, with the velocity changed."""
+    if v is None:
+        return axpy(work.dt, quarter(value, 3), load_row(x, p))
+    X = axpy(work.dt, quarter(value, 0), load_row(x, p))
+    store_row(v, p, axpy(work.h, quarter(value, 3), load_row(v, p)))
+    return X
+
+
+@inlined
+def _strained(work, law, mesh, sx, sy, sz, V, stress, state, total, p):
+    if law is not None:
+        strain = strain_increment(mesh, sx, sy, sz, work.dt)
+        spin = spin_increment(mesh, sx, sy, sz, work.dt)
+        advance(law, work.rotation, strain, spin, V, stress, state, total, p, work.dt)
+
+
+class Remap(NamedTuple):
+    """Change velocities by h times the acceleration and put the new momentum into the tiles.
+
+    Arrays: v, m.
+    """
+
+    h: float
+
+
+@visit.register(Remap)
+def remap(work, here, a, p):
+    v, m = a
+    n, wx, wy, wz = locate(here, p)
+    value = collect_value(here.source, n, here.rows, wx, wy, wz)
+    store_row(v, p, axpy(work.h, quarter(value, 3), load_row(v, p)))
+    C0 = momentum_and_weight(m, v, pack(1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), p)
+    deposit_value(here.tiles[0], here.n0 + n, here.rows, wx, wy, wz, C0)
+    return 0
+
+
+class StrainAndForce(NamedTuple):
+    """Update stress with the nodal velocity, add the internal force of the new one to the tiles.
+
+    Arrays: V, stress, pressure of a pore fluid or None, and the last two of `Gather`.
+    """
+
+    law: object
+    rotation: object
+    dt: float
+
+
+@visit.register(StrainAndForce)
+def strain_and_force(work, here, a, p):
+    V, stress, pressure, state, total = a
+    n, wx, wy, wz = locate(here, p)
+    _, sx, sy, sz = collect(here.source, n, here.rows, wx, wy, wz)
+    _strained(work, work.law, here.mesh, sx, sy, sz, V, stress, state, total, p)
+    C1, C2, C3 = internal_force(here.mesh, V, stress, pressure, p)
+    deposit(here.tiles[0], here.n0 + n, here.rows, wx, wy, wz, splat(0.0), C1, C2, C3)
+    return 0

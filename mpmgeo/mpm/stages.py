@@ -1,0 +1,98 @@
+"""The stages of a step, of which the schemes are made.
+
+A stage does its own work for all particles or nodes, and lets the effects do theirs.
+"""
+
+import numba
+
+from mpmgeo.mpm.core.loops import over_nodes, over_particles
+from mpmgeo.mpm.core.transfer import Gather, Remap, Scatter, StrainAndForce
+from mpmgeo.numerics.chunks import ALONE, Crew
+
+
+class Loops:
+    """Loops over the particles and nodes of a `grid`, with a `shape`; `small`: without threads."""
+
+    @property
+    def crew(self):
+        """Return who runs the loops: threads, if it pays; their number never changes results."""
+        return ALONE if self.small else Crew.of(numba.get_num_threads())
+
+    def over_particles(self, work, s, arrays, tiles=None, nodes=None, fresh=False):
+        """Visit the particles of set `s` with a work that fills `tiles` and reads `nodes`."""
+        grid, start = self.grid, s.start
+        place = (s.chunk, start[:-1], start[1:], grid.corner)
+        read = None if nodes is None else (nodes, grid.above)
+        return over_particles(
+            *(self.crew, work, self.shape, grid.mesh, place, s.half, s.x),
+            *(read, grid.scratch, tiles or (grid.tiles,), fresh, arrays),
+        )
+
+    def over_nodes(self, task):
+        """Visit all nodes."""
+        grid = self.grid
+        place = (grid.chunk, grid.active_corner, grid.below)
+        over_nodes(
+            *(self.crew, task.work, self.shape, grid.mesh, place),
+            *(task.tiles, task.scratch, task.arrays),
+        )
+
+
+class Stages(Loops):
+    """What a solver does in a step; its state is that of `Solver`."""
+
+    def scatter(self, internal=True):
+        """Fill the tiles with mass, momentum and external force, and the internal one if asked."""
+        for number, s in enumerate(self.sets):
+            work = Scatter(self.gravity, 0.0 if s.tool is None else 1.0)
+            stress = (s.stress, s.pressure) if internal else (None, None)
+            arrays = (s.v, s.m, s.V, *stress, s.force)
+            self.over_particles(work, s, arrays, (self.grid.tiles,), fresh=number == 0)
+        self.clock.lap("scatter")
+
+    def update_momentum(self, h):
+        """Integrate the nodal momentum over h."""
+        task = self.nodal.momentum(self, h)
+        for effect in self.effects:
+            effect.before_nodes(self, task)
+        self.over_nodes(task)
+        self.clock.lap("grid update")
+        for effect in self.effects:
+            effect.after_nodes(self, h)
+
+    def update_velocity(self, after):
+        """Make nodal velocities of the momentum in the tiles, `after` the step or before it."""
+        self.over_nodes(self.nodal.velocity(self, after))
+        self.clock.lap("grid update")
+
+    def gather(self, h, stress=True):
+        """Move the particles; change velocities by h times the acceleration unless h is None."""
+        for effect in self.effects:
+            effect.before_gather(self, h)
+        nodes, step = self.grid.nodes, 0.0 if h is None else h
+        for s in self.sets:
+            work = Gather(s.law if stress else None, s.rotation, self.time_step, step)
+            arrays = (None if h is None else s.v, s.V, s.stress, s.state, s.strain)
+            self.gone += self.over_particles(work, s, arrays, nodes=nodes)
+        self.clock.lap("gather")
+        for effect in self.effects:
+            self.gone += effect.after_gather(self)
+
+    def remap(self, h):
+        """Change velocities by h times the acceleration, put the new momentum into the tiles."""
+        grid = self.grid
+        for number, s in enumerate(self.sets):
+            arrays, fresh = (s.v, s.m), number == 0
+            self.over_particles(Remap(h), s, arrays, (grid.tiles,), grid.nodes, fresh)
+        self.clock.lap("remap")
+        for effect in self.effects:
+            effect.after_remap(self, h)
+
+    def strain_and_force(self):
+        """Update stress with the nodal velocities, add the internal force to the tiles."""
+        grid = self.grid
+        for s in self.sets:
+            work = StrainAndForce(s.law, s.rotation, self.time_step)
+            arrays = (s.V, s.stress, s.pressure, s.state, s.strain)
+            self.over_particles(work, s, arrays, (grid.tiles,), grid.nodes)
+        self.clock.lap("strain and force")

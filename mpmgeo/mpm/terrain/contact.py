@@ -1,0 +1,176 @@
+"""Contact of all particle sets with the ground, as a part of a step."""
+
+import numpy as np
+
+from mpmgeo.boundaries.distance import distances
+from mpmgeo.effect import Effect
+from mpmgeo.mpm.core.loops import over_nodes, over_particles
+from mpmgeo.mpm.terrain.density import density_at, nodal_density
+from mpmgeo.mpm.terrain.ground import NearGround
+from mpmgeo.mpm.terrain.press import Fastest, MoveOut, Part, Press, Push
+from mpmgeo.mpm.terrain.touch import Detect
+from mpmgeo.mpm.terrain.touch_legacy import Impel
+from mpmgeo.numerics.chunks import ALONE, CHUNKS
+from mpmgeo.numerics.triangle_tree import DEPTH, FACE
+
+LIGHT = 1e-6  # share of a particle's mass
+CAUTION = 2.0  # for what contact does to the speeds, and for bends of the ground
+
+
+class Contact(Effect):
+    """Contact with a ground that may move: changes the nodes, then the positions.
+
+    `symbols`: μ, k and D; `offset` (3,) [m]: how far the ground has moved.
+    """
+
+    name = "ground"
+
+    def __init__(self, symbols, surface, ground, mesh, width):
+        self.symbols = symbols
+        self.surface = surface
+        self.ground = ground
+        self.near = NearGround(ground, mesh, width, symbols.D)
+        self.offset = (0.0, 0.0, 0.0)
+        self.way = 0.0  # that nodes near the ground have moved at most, relative to it [m]
+
+    def join(self, solver):
+        """Look at the particles that can touch the ground: no velocity of theirs is prescribed."""
+        self.sets = [s for s in solver.sets if s.tool is None]
+        self.least = LIGHT * min((float(s.m.min()) for s in self.sets), default=0.0)
+        self.places = []
+
+    def after_nodes(self, solver, h):
+        """Find what touches and change the nodes' velocities and accelerations."""
+        self._arrange(solver)
+        if len(self.near.near) and self._detect(solver):
+            self._press(solver, h)
+        solver.clock.lap("contact")
+
+    def _detect(self, solver):
+        """Find what touches; return whether there is anything."""
+        near, grid, dt = self.near, solver.grid, solver.time_step
+        motion = solver.motion.after
+        square = np.zeros(len(near.active))
+        self._over_nodes(solver, Fastest(self.least, motion), (grid.nodes, near.active, square))
+        step = CAUTION * dt * float(square.max() ** 0.5)
+        offset = self.offset if any(self.offset) else None
+        work = Detect(self.symbols, self.way, step, 1.0 / dt, offset, motion, near.shift)
+        near.touched[:] = 0
+        nodes = grid.nodes, near.above
+        for number, s in enumerate(self.sets):
+            arrays = (near.level, s.m, s.due, s.contact, near.touched)
+            self._over_particles(solver, work, number, arrays, nodes, fill=True)
+        self.way += step
+        return near.touched.any()
+
+    def _press(self, solver, h):
+        """Give the nodes the impulses of what touches."""
+        near, grid = self.near, solver.grid
+        around = (grid.nodes, near.active, near.place_of_nodes[2], near.touched)
+        self._over_nodes(solver, Part(), (*around, near.field.nodes), is_sum=True)
+        nodes = near.field.nodes, near.around
+        work = Press(self.symbols, h, 1.0 / solver.time_step)
+        for number, s in enumerate(self.sets):
+            arrays = (s.m, s.due, s.contact, near.touched)
+            self._over_particles(solver, work, number, arrays, nodes, fill=True)
+        driven, of_driven = solver.driven
+        work = Push(solver.planes, driven, h)
+        self._over_nodes(solver, work, (*around, of_driven), is_sum=True)
+
+    def after_gather(self, solver):
+        """Move overlapping particles out; return how many are then outside their block."""
+        near, gone = self.near, 0
+        self.follow(solver.motion, solver.time_step)
+        if near.touched.any():
+            for number, s in enumerate(self.sets):
+                arrays = (s.due, s.contact, near.touched)
+                gone += self._over_particles(solver, MoveOut(), number, arrays)
+        solver.clock.lap("contact")
+        return gone
+
+    def _over_particles(self, solver, work, number, arrays, nodes=None, fill=False):
+        """Visit the particles of a set in the blocks near the ground."""
+        s, fresh = self.sets[number], fill and number == 0
+        return over_particles(
+            *(solver.crew, work, solver.shape, solver.grid.mesh, self.places[number]),
+            *(s.half, s.x, nodes, solver.grid.scratch, (self.near.field.tiles,), fresh, arrays),
+        )
+
+    def _over_nodes(self, solver, work, arrays, is_sum=False):
+        """Visit the nodes near the ground, the tiles summed before if asked."""
+        tiles = (self.near.field.tiles,) if is_sum else None
+        over_nodes(
+            *(solver.crew, work, solver.shape, solver.grid.mesh, self.near.place_of_nodes),
+            *(tiles, solver.grid.scratch, arrays),
+        )
+
+    def follow(self, motion, dt):
+        """Let the ground move for a step of the base."""
+        self.offset = tuple(u + dt * v for u, v in zip(self.offset, motion.after, strict=True))
+
+    def distance(self, x):
+        """Return the signed distances (n,) [m] of points (n, 3) [m] to the ground as it lies."""
+        out = np.empty(len(x))
+        distances(ALONE, self.ground, np.ascontiguousarray(x) - self.offset, out)
+        return out
+
+    def density(self, solver):
+        """Return the share (blocks, 64) of the nodes' volume that particles fill."""
+        return nodal_density(solver)
+
+    def density_at(self, solver, x):
+        """Return that share (n,) at points (n, 3) [m]."""
+        return density_at(solver, x)
+
+    def triangles(self):
+        """Return centres (n, 3) [m] and normals (n, 3) of the triangles as they lie."""
+        corner, normal, _, _ = self.surface
+        return corner.mean(axis=1) + self.offset, normal[:, FACE]
+
+    def after_sort(self, solver):
+        """Let particles that are not near the ground be looked at as soon as they come near."""
+        near, grid = self.near, solver.grid
+        near.arrange(grid, self.offset, solver.crew)
+        near.touched[:] = 0
+        self.places = [near.place(s) for s in self.sets]
+        is_near = np.zeros(len(grid.keys), bool)
+        is_near[near.near] = True
+        for s in self.sets:
+            far = np.flatnonzero(~np.repeat(is_near, np.diff(s.start)) & (s.due[: s.active] != 0))
+            s.due[far] = 0.0
+            s.contact[far] = 0.0
+            s.due[s.active :] = s.contact[s.active :] = 0.0
+
+    def _arrange(self, solver):
+        """Find the blocks near the ground if it has moved since the last sort."""
+        if self.near.is_old(solver.grid, self.offset):
+            self.after_sort(solver)
+
+    def state(self):
+        """Return how far the ground and the nodes near it have moved."""
+        return {"offset": self.offset, "way": self.way}
+
+    def take(self, state):
+        """Go on with what `state` once returned."""
+        self.offset, self.way = tuple(state.pop("offset")), state.pop("way")
+
+
+class ContactAsMPMGeomechanics(Contact):
+    """Contact at a distance, on particles alone, with a ground that stays where it is."""
+
+    def after_nodes(self, solver, h):
+        """Change the velocities of particles that approach the ground."""
+        self._arrange(solver)
+        near, grid = self.near, solver.grid
+        near.touched[:] = 1
+        work = Impel(self.symbols, h, solver.time_step, solver.motion.after)
+        waiting, last = np.empty((CHUNKS, DEPTH), np.int64), np.zeros(CHUNKS, np.int64)
+        nodes = grid.nodes, near.above
+        for number, s in enumerate(self.sets if len(near.near) else ()):
+            arrays = (self.ground, near.level, s.v, s.m, s.due, s.contact, waiting, last)
+            last[:] = 0
+            self._over_particles(solver, work, number, arrays, nodes)
+        solver.clock.lap("contact")
+
+    def follow(self, motion, dt):
+        """Do nothing: only the velocity of the ground counts."""

@@ -1,0 +1,65 @@
+"""How full of particles the space is: at a node the share Σ S V₀ of its volume, V₀ at the start."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from mpmgeo.mpm.core.loops import at_node, visit
+from mpmgeo.mpm.core.tile import deposit_value, locate
+from mpmgeo.mpm.task import Task
+from mpmgeo.numerics.simd import lane, load, pack
+from mpmgeo.state.grid import keys_of
+from mpmgeo.state.layout import NODES, SIDE, inner
+
+
+class AddVolume(NamedTuple):
+    """Add S V to the tiles. Arrays: V."""
+
+
+@visit.register(AddVolume)
+def add_volume(work, here, a, p):
+    n, wx, wy, wz = locate(here, p)
+    C0 = pack(a[0][p], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    deposit_value(here.tiles[0], here.n0 + n, here.rows, wx, wy, wz, C0)
+    return 0
+
+
+class Volume(NamedTuple):
+    """Write the sums of what `AddVolume` added. Arrays: (nodes,)."""
+
+
+@at_node.register(Volume)
+def volume(work, node, a):
+    a[0][node.number] = lane(load(node.sums, node.at), 0)
+
+
+def nodal_density(solver):
+    """Return the density (blocks, 64) [-] at the nodes of the grid's active blocks."""
+    solver.arrange()
+    grid, mesh = solver.grid, solver.grid.mesh
+    out = np.zeros(len(grid.active) * NODES)
+    for number, s in enumerate(solver.sets):
+        volumes = solver.population.size[s.row].prod(axis=1)
+        # the tiles keep nothing from one step to the next
+        solver.over_particles(AddVolume(), s, (volumes,), (grid.tiles,), fresh=number == 0)
+    solver.over_nodes(Task(Volume(), (grid.tiles,), grid.scratch, (out,)))
+    return out.reshape(-1, NODES) / (mesh.hx * mesh.hy * mesh.hz)
+
+
+def density_at(solver, x):
+    """Return the density (n,) [-] at points x (n, 3) [m], linear between the nodes."""
+    grid, mesh = solver.grid, solver.grid.mesh
+    density = np.append(nodal_density(solver).ravel(), 0.0)
+    g = (x - [mesh.ox, mesh.oy, mesh.oz]) * [mesh.ix, mesh.iy, mesh.iz]
+    g = np.clip(g, -4.0, np.array([mesh.nx, mesh.ny, mesh.nz]) + 4.0)
+    first = np.floor(g).astype(np.int64)
+    value = np.zeros(len(x))
+    for corner in np.ndindex(2, 2, 2):
+        node = first + corner
+        weight = np.where(corner, g - first, 1.0 - (g - first)).prod(axis=1)
+        keys = keys_of(node // SIDE)
+        block = np.minimum(np.searchsorted(grid.active, keys), max(len(grid.active) - 1, 0))
+        at = block * NODES + inner(*(node % SIDE).T)
+        known = grid.active[block] == keys if len(grid.active) else np.zeros(len(x), bool)
+        value += weight * density[np.where(known, at, -1)]
+    return value
