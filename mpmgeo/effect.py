@@ -51,9 +51,9 @@ class Effect:
         """Yield (topic, messages) for what the user should be told of, `messages` a function."""
         yield from ()
 
-    def state(self) -> dict:
+    def held(self) -> dict:
         """Return what a run that goes on needs of it, arrays and JSON values by name."""
         return {}
 
     def take(self, state: dict):
-        """Go on with what `state` once returned, taking it out; KeyError for what is missing."""
+        """Go on with what `held` once returned, taking it out; KeyError for what is missing."""

@@ -12,6 +12,7 @@ from mpmgeo.case.build import build, critical_time_step
 from mpmgeo.loads.point import GHOSTS
 from mpmgeo.mpm.incidents import Unsound
 from mpmgeo.naming import PLANES
+from mpmgeo.numerics.jit import remarks
 from mpmgeo.output.final_stress import FinalStress
 from mpmgeo.output.histories import Histories, histories_of
 from mpmgeo.output.particle_fields import particle_field
@@ -43,7 +44,7 @@ class Simulation:
         self.output = None if output is None else Path(output)
         self.messages = [*case.notes, *case.warnings]
         self.solver, notes = build(case)
-        self.messages += notes
+        self.messages += [*notes, *remarks()]
         self.threads = self._set_threads(threads or case.n_threads)
         self.critical_time_step = critical_time_step(case, self.field("velocity"))
         self.interrupted = False

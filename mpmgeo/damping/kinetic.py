@@ -39,10 +39,10 @@ class Stops(Effect):
         self.last = energy
         solver.clock.lap(self.name)
 
-    def state(self):
+    def held(self):
         """Return the energy to compare with."""
         return {"last_energy": self.last}
 
     def take(self, state):
-        """Go on with what `state` once returned."""
+        """Go on with what `held` once returned."""
         self.last = state.pop("last_energy")

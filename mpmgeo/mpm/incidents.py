@@ -29,7 +29,7 @@ class Departures(list):
             f"{first.rows[0]}, at ({where}) m after {first.time:.6g} s"
         ]
 
-    def state(self):
+    def held(self):
         """Return the departures as arrays, by name."""
         if not self:
             return {}
@@ -42,7 +42,7 @@ class Departures(list):
         }
 
     def take(self, state):
-        """Go on with what `state` once returned."""
+        """Go on with what `held` once returned."""
         self.clear()
         if state:
             time, count, rows, position = (

@@ -2,7 +2,7 @@
 
 The state is all that a step changes and a later step depends on: a solver of the same case that
 takes it over goes on bit for bit as the first one would have done. Each owner of a part of it has
-`state()`, which returns the part, and `take(state)`, which goes on with it, taking out what it
+`held()`, which returns the part, and `take(state)`, which goes on with it, taking out what it
 knows; snapshots, the copy that the guard keeps and going back to it all come from there.
 """
 
@@ -16,7 +16,7 @@ def state_of(solver) -> dict:
     return {
         f"{owner}.{name}" if owner else name: value
         for owner, part in solver.owners().items()
-        for name, value in part.state().items()
+        for name, value in part.held().items()
     }
 
 

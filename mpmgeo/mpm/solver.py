@@ -173,11 +173,11 @@ class Solver(Stages):
         effects = {effect.name: effect for effect in self.effects}
         return {"": self, "departures": self.departures, "grid": self.grid, **sets, **effects}
 
-    def state(self):
+    def held(self):
         """Return the solver's own part, by name."""
         return {name: getattr(self, name) for name in COUNTERS}
 
     def take(self, state):
-        """Go on with what `state` once returned."""
+        """Go on with what `held` once returned."""
         for name in COUNTERS:
             setattr(self, name, state.pop(name))

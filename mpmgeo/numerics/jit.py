@@ -59,6 +59,16 @@ def keep_apart(source):
         function.enable_caching()
 
 
+def remarks():
+    """Return what keeps two runs of a case from having the same bits, one sentence each."""
+    if numba.config.CACHE_DIR:
+        return []
+    return [
+        "no folder for compiled kernels can be written ($NUMBA_CACHE_DIR, $XDG_CACHE_HOME, "
+        "~/.cache): every run compiles them anew, so last bits may differ from run to run"
+    ]
+
+
 def inlined(function):
     """Compile a helper that disappears into the kernels that call it."""
     return numba.njit(**INLINED)(function)

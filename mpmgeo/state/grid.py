@@ -124,12 +124,12 @@ class Grid:
         inner = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), -1).reshape(-1, 3)
         return self.active_corner[:, None] * SIDE + inner
 
-    def state(self):
+    def held(self):
         """Return what a run that goes on needs of the grid, by name."""
         return {"keys": self.keys, "records": self.records()}
 
     def take(self, state):
-        """Go on with what `state` once returned."""
+        """Go on with what `held` once returned."""
         self.cover(state.pop("keys").copy())
         np.copyto(self.records(), state.pop("records"))
 

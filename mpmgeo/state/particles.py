@@ -68,12 +68,12 @@ class ParticleSet:
         """Return the arrays that are permuted together, by name."""
         return {name: a for name in ARRAYS if isinstance(a := getattr(self, name), np.ndarray)}
 
-    def state(self):
+    def held(self):
         """Return what a run that goes on needs of the set, by name."""
         return self.arrays() | {"start": self.start, "chunk": self.chunk}
 
     def take(self, state):
-        """Go on with what `state` once returned; ValueError for arrays of other particles."""
+        """Go on with what `held` once returned; ValueError for arrays of other particles."""
         for name, array in self.arrays().items():
             found = state.pop(name)
             if found.shape != array.shape or found.dtype != array.dtype:

@@ -33,12 +33,12 @@ class Base(Effect):
                 f"{self.motion.afterwards} from then on"
             ]
 
-    def state(self):
+    def held(self):
         """Return the velocity of the base, and whether its record has ended."""
         return {"velocity": self.motion.velocity, "ended": bool(self.motion.ended)}
 
     def take(self, state):
-        """Go on with what `state` once returned, with the planes that follow from it."""
+        """Go on with what `held` once returned, with the planes that follow from it."""
         motion, planes = self.motion, self.planes
         motion.velocity, motion.ended = tuple(state.pop("velocity")), state.pop("ended")
         self.solver.planes = motion.planes_after(planes) if motion.ended else planes

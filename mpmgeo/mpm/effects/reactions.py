@@ -128,11 +128,11 @@ class Reactions(Effect):
         solver.reactions = forces.sum(axis=0)
         solver.clock.lap(self.name)
 
-    def state(self):
+    def held(self):
         """Return the forces, once there are any."""
         forces = self.solver.reactions
         return {} if forces is None else {"forces": forces}
 
     def take(self, state):
-        """Go on with what `state` once returned."""
+        """Go on with what `held` once returned."""
         self.solver.reactions = state.pop("forces", None)

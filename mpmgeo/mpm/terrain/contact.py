@@ -146,12 +146,12 @@ class Contact(Effect):
         if self.near.is_old(solver.grid, self.offset):
             self.after_sort(solver)
 
-    def state(self):
+    def held(self):
         """Return how far the ground and the nodes near it have moved."""
         return {"offset": self.offset, "way": self.way}
 
     def take(self, state):
-        """Go on with what `state` once returned."""
+        """Go on with what `held` once returned."""
         self.offset, self.way = tuple(state.pop("offset")), state.pop("way")
 
 
