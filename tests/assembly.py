@@ -45,7 +45,8 @@ def assemble(
 
     `split`: number of particle sets among which the particles are dealt in turn. `local`,
     `delayed`: share of local damping, in our form or that of MPM-Geomechanics; `settles`: whether
-    there is kinetic damping. `more`: fields of Solver; a time step of 1 ms, no gravity and no mass cut-off if not said.
+    there is kinetic damping. `more`: fields of Solver; a time step of 1 ms, no gravity and no mass
+    cut-off if not said.
     """
     position = np.array(position, float).reshape(-1, 3)
     n = len(position)

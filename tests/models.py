@@ -25,7 +25,7 @@ def _spline(width):
 
     N_r ← ((u + d − r) N_{r−1} + (r + 1 − u) N_r) / d,  u = s + ½,  the slopes from degree d − 1.
     """
-    lines = ["def stencil(shape, s, l):", " u = s + 0.5", " N0_0 = 0.0 * u + 1.0"]
+    lines = ["def stencil(shape, s, l, cut):", " u = s + 0.5", " N0_0 = 0.0 * u + 1.0"]
     for d in range(1, width):
         for r in range(d + 1):
             lower = f"(u + {d - r}.0) * N{d - 1}_{r - 1}" if r > 0 else "0.0 * u"

@@ -6,7 +6,8 @@ from mpmgeo.materials.elastic import Elastic
 from mpmgeo.mpm.solver import SMALL
 from mpmgeo.mpm.stages import Loops
 from mpmgeo.shapes import SHAPES
-from mpmgeo.state.grid import NODES, Grid, Mesh
+from mpmgeo.state.grid import Grid, Mesh
+from mpmgeo.state.layout import NODES
 from mpmgeo.state.particles import ParticleSet
 from mpmgeo.state.sorting import sort
 

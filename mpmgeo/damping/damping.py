@@ -23,7 +23,7 @@ class Damping:
 
     def effect(self):
         """Return what acts on the particles as a whole, None if nothing does."""
-        return None
+        return
 
 
 @dataclass(frozen=True)

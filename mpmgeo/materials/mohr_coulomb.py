@@ -212,9 +212,9 @@ class MohrCoulomb(Elastic):
         if any(map(self._softens, SOFTENING)):
             losses = (φ_, φ - φ_, ψ_, ψ - ψ_, c_, c - c_, T_, T_loss)
             return Softening(*stiffness, self.eta, *losses)
-        N, M = flow_number.py_func(φ), flow_number.py_func(ψ)
+        N, M = flow_number(φ), flow_number(ψ)
         σc = 2 * c * sqrt(N)
-        return Constant(*stiffness, N, M, σc, cut_off.py_func(N, σc, T))
+        return Constant(*stiffness, N, M, σc, cut_off(N, σc, T))
 
     @property
     def symbols_as_mpm_geomechanics(self) -> mohr_coulomb_legacy.Symbols:

@@ -81,7 +81,7 @@ class Solver(Stages):
     def arrange(self):
         """Sort the particles now if some are not where the order says."""
         if self.gone:
-            self._sort()
+            self._sort(judge=False)
 
     def keep(self, kept=None):
         """Return a copy of the whole state, in the arrays of the copy `kept` if there is one."""
@@ -90,13 +90,14 @@ class Solver(Stages):
     def restore(self, kept):
         """Go back to the state that `keep` returned."""
         take_over(self, kept)
+        self.arrange()
 
     def step(self):
         """Advance by one time step; the first one changes velocities by half a step."""
         h = 0.5 * self.time_step if self.steps == 0 else self.time_step
         self.clock.begin()
         if self.gone:
-            self._judge(self._sort())
+            self._sort()
             self.clock.lap("sort")
         for effect in self.effects:
             effect.begin(self, h)
@@ -135,18 +136,19 @@ class Solver(Stages):
         state = [np.copy(a[p]) for a in (s.x, s.v, s.stress)]
         raise Unsound(material, int(s.row[p]), self.steps, self.time, *state)
 
-    def _sort(self):
-        """Sort the particles; return those that are outside the mesh from now on, set by set."""
+    def _sort(self, judge=True):
+        """Sort the particles, note who leaves; `judge`: raise Unsound for those that failed."""
         left = sort(self.grid, self.sets, self.crew, self._walls())
         self.gone = 0
         for effect in self.effects:
             effect.after_sort(self)
         new = [slice(s.active, s.active + n) for s, n in zip(self.sets, left, strict=True)]
+        if judge:
+            self._judge(new)
         for s, rows in zip(self.sets, new, strict=True):
             if rows.start < rows.stop:
                 first = s.active + int(s.row[rows].argmin())
                 self.departures.add(self.time, np.sort(s.row[rows]), s.x[first].copy())
-        return new
 
     def _judge(self, new):
         """Raise Unsound if one of those that left did so because it failed."""

@@ -70,12 +70,7 @@ def remarks():
 
 
 def inlined(function):
-    """Compile a helper that disappears into the kernels that call it."""
-    return numba.njit(**INLINED)(function)
-
-
-def shared(function):
-    """Let kernels call a helper, which disappears in them; Python calls it as it is."""
+    """Compile a helper that disappears into the kernels that call it; Python calls it as it is."""
     return register_jitable(**INLINED)(function)
 
 

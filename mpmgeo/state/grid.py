@@ -15,7 +15,7 @@ import numpy as np
 from mpmgeo.numerics.chunks import CHUNKS
 from mpmgeo.numerics.simd import LANES, aligned
 from mpmgeo.state.field import Field, Lanes
-from mpmgeo.state.layout import NODES, SIDE, blocks_along, volume
+from mpmgeo.state.layout import SIDE, blocks_along, volume
 
 SOLID = Lanes(
     tile={"mass": (0, 1), "momentum": (1, 3), "force": (4, 3), "mass of tools": (7, 1)},

@@ -72,7 +72,7 @@ def test_slopes_are_those_of_the_weights(shape, s, l):
 
 @SHAPE
 @given(s=within_cell, l=half_size)
-def test_mirrored_particle_has_mirrored_stencil(shape, s, l, None):
+def test_mirrored_particle_has_mirrored_stencil(shape, s, l):
     weights, slopes, _ = parts(shape, s, l)
     mirrored, turned, _ = parts(shape, -s, l)
     assert np.abs(mirrored[::-1] - weights).max() < 1e-14

@@ -76,7 +76,9 @@ def test_tool_pushed_into_a_confined_column(tmp_path):
     tool = simulation.field("body") == 2
     assert np.ptp(simulation.field("displacement")[tool, 2]) < 1e-15
     assert simulation.field("displacement")[tool, 2] == pytest.approx(way, rel=1e-4)
-    assert (simulation.field("velocity")[tool, 2] == simulation.solver.effect("tools").after[0, 2]).all()
+    assert (
+        simulation.field("velocity")[tool, 2] == simulation.solver.effect("tools").after[0, 2]
+    ).all()
     assert np.abs(simulation.field("stress")[tool]).max() < 1e-6 * -MODULUS * way
     force = simulation.reactions()["prescribed_velocity_1"][2]
     assert force == pytest.approx(MODULUS * way * 0.2**2, rel=0.01)

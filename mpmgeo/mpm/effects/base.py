@@ -28,10 +28,13 @@ class Base(Effect):
     def news(self, solver):
         """Tell when the record ends."""
         if self.motion.ended:
-            yield "record", lambda: [
-                f"the record of the base ended before {solver.time:.6g} s; "
-                f"{self.motion.afterwards} from then on"
-            ]
+            yield (
+                "record",
+                lambda: [
+                    f"the record of the base ended before {solver.time:.6g} s; "
+                    f"{self.motion.afterwards} from then on"
+                ],
+            )
 
     def held(self):
         """Return the velocity of the base, and whether its record has ended."""

@@ -44,11 +44,14 @@ class PointLoads(Effect):
 
     def news(self, solver):
         """Tell, once the nodes have their masses, of loads that act on nothing."""
-        yield "point loads", lambda: [
-            f"nodal_point_load, entry {number}: its node carries no mass at the start; "
-            "the force acts only while material is there"
-            for number in np.flatnonzero(self.idle(solver.grid)) + 1
-        ]
+        yield (
+            "point loads",
+            lambda: [
+                f"nodal_point_load, entry {number}: its node carries no mass at the start; "
+                "the force acts only while material is there"
+                for number in np.flatnonzero(self.idle(solver.grid)) + 1
+            ],
+        )
 
     def idle(self, grid):
         """Return which loads (k,) act on a node without mass, and so on nothing."""

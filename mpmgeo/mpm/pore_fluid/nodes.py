@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from mpmgeo.boundaries.planes import constrain
 from mpmgeo.damping.damping import damp_all
-from mpmgeo.mpm.core.driven import free_components, holds, others_velocity
+from mpmgeo.mpm.core.driven import holds, others_velocity
 from mpmgeo.mpm.core.loops import at_node
 from mpmgeo.mpm.effects.reactions import add_force, at_forces, holder
 from mpmgeo.numerics.jit import inlined

@@ -54,10 +54,10 @@ def fastest(work, node, a):
 @inlined
 def nothing_touches(below, touched, b):
     """Tell whether no tile over block b has particles that touch."""
+    count = 0
     for o in range(below.shape[1]):
-        if below[b, o] >= 0 and touched[below[b, o]] != 0:
-            return False
-    return True
+        count += below[b, o] >= 0 and touched[below[b, o]] != 0
+    return count == 0
 
 
 class Part(NamedTuple):

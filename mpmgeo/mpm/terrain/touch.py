@@ -99,10 +99,10 @@ class Detect(NamedTuple):
 @is_idle.register(Detect)
 def waits(work, a, b, begin, end):
     due = a[2]
+    count = 0
     for p in range(begin, end):
-        if not due[p] > work.way + work.step:
-            return False
-    return True
+        count += not due[p] > work.way + work.step
+    return count == 0
 
 
 @visit.register(Detect)

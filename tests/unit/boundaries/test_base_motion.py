@@ -7,6 +7,7 @@ from assembly import assemble, nodes, planes
 from mpmgeo.boundaries.base_motion import STILL, BaseMotion, BaseMotionAsMPMGeomechanics
 from mpmgeo.boundaries.planes import BASE, FIXED, SLIDING
 from mpmgeo.loads.record import Record
+from mpmgeo.mpm.effects.base import Base
 
 TIME = np.array([0.0, 0.1, 0.2, 0.3])
 ACCELERATION = np.array([[4.0, 0, 0], [0, 2.0, 0], [0, 0, -6.0], [1.0, 1.0, 1.0]])
@@ -66,7 +67,7 @@ def shaken(scheme, base, steps, **more):
     """Return the nodes, after some steps, of a mesh full of particles on a moving base."""
     random = np.random.default_rng(4)
     position = random.uniform(0, 6, (2000, 3))
-    extra = {"cells": (6, 6, 6), "gravity": GRAVITY, "time_step": DT, "base": base}
+    extra = {"cells": (6, 6, 6), "gravity": GRAVITY, "time_step": DT, "effects": (Base(base),)}
     solver = assemble(position, scheme=scheme, volume=1e-9, **extra, **more)
     for _ in range(steps):
         solver.step()

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 import terrains
 
-from mpmgeo.numerics.chunks import ALONE
 from mpmgeo.boundaries.distance import FAR, Ground, distances, fill
 from mpmgeo.boundaries.surface import surface_of
+from mpmgeo.numerics.chunks import ALONE
 from mpmgeo.state.grid import Mesh
 
 HILL = terrains.patch(lambda x, y: np.sin(2 * x) * np.cos(y), -3.0, 3.0, 20)

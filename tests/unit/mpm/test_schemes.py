@@ -34,7 +34,7 @@ def test_stress_last_with_new_momentum():
         ("scatter",),
         ("update_momentum", H),
         ("remap", H),
-        ("update_velocity", ("base", "after")),
+        ("update_velocity", ("after", True)),
         ("gather", None),
     ]
 
@@ -42,7 +42,7 @@ def test_stress_last_with_new_momentum():
 def test_stress_first():
     assert stages("USF") == [
         ("scatter", ("internal", False)),
-        ("update_velocity", ("base", "before")),
+        ("update_velocity", ("after", False)),
         ("strain_and_force",),
         ("update_momentum", H),
         ("gather", H, ("stress", False)),

@@ -6,9 +6,9 @@ from assembly import RUBBER, assemble, by_row, nodes, planes
 from models import Counting
 
 from mpmgeo.boundaries.planes import BASE
+from mpmgeo.mpm.effects.tools import Tools
 from mpmgeo.mpm.incidents import Unsound
 from mpmgeo.mpm.solver import SMALL
-from mpmgeo.mpm.effects.tools import Tools
 from mpmgeo.shapes import SHAPES
 
 DT = 1e-3

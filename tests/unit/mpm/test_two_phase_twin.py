@@ -76,8 +76,8 @@ class Twin:
             g = (x - self.box.origin) / self.box.cell
             first = np.floor(g - 0.5 * (S - 2)).astype(int)
             parts = [
-                np.array(stencil(self.s.shape, g[a] - first[a] - 0.5 * (S - 1), self.half[p, a], None))
-                for a in range(3)
+                np.array(stencil(self.s.shape, s, l, None))
+                for s, l in zip(g - first - 0.5 * (S - 1), self.half[p], strict=True)
             ]
             i, j, k = (slice(f + self.box.ghosts, f + self.box.ghosts + S) for f in first)
             w, d = [a[:S] for a in parts], [a[S:] for a in parts]

@@ -8,10 +8,12 @@ import sys
 from pathlib import Path
 
 import numba
+import numpy as np
 import pytest
 
 import mpmgeo
 from mpmgeo.numerics import jit
+from mpmgeo.numerics.chunks import ALONE, CHUNKS, Crew
 
 PACKAGE = Path(mpmgeo.__file__).parent
 
@@ -96,29 +98,19 @@ def test_unwritable_home_falls_back(copy, monkeypatch, tmp_path):
     assert folder().is_relative_to(tmp_path / "elsewhere")
 
 
-def test_twins_do_not_share_a_cache_entry(tmp_path, monkeypatch):
-    """A serial kernel served from the threaded one's entry would use threads, and the reverse."""
+def test_one_kernel_in_the_cache_serves_every_crew(tmp_path, monkeypatch):
     monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
     source = tmp_path / "loops.py"
     source.write_text(
-        "from numba import prange\n"
-        "from mpmgeo.numerics.jit import blockwise\n"
-        "@blockwise\n"
-        "def fill(a):\n"
-        "    for i in prange(len(a)):\n"
-        "        a[i] = i\n"
+        "from mpmgeo.numerics.chunks import blockwise\n@blockwise\ndef fill(c, a):\n    a[c] = c\n"
     )
-    signature = numba.types.void(numba.types.float64[::1])
-    module(source).fill.compile(signature.args)
-    again = module(source).fill
-    again.serial.compile(signature.args)
-    assert not sum(again.serial.stats.cache_hits.values())
-    again.compile(signature.args)
-    assert sum(again.stats.cache_hits.values()) == 1
-    last = module(source).fill
-    last.serial.compile(signature.args)
-    assert sum(last.serial.stats.cache_hits.values()) == 1
-    assert last.serial.targetoptions.get("parallel", False) is False
+    written = []
+    for crew, hits in ((ALONE, 0), (Crew.of(2), 1), (ALONE, 1)):
+        fill, a = module(source).fill, np.zeros(CHUNKS)
+        fill(crew, a)
+        assert sum(fill.stats.cache_hits.values()) == hits
+        written.append(a)
+    assert all((a == np.arange(CHUNKS)).all() for a in written)
 
 
 LAW = """

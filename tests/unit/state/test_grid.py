@@ -9,14 +9,13 @@ from hypothesis.extra import numpy as hnp
 from mpmgeo.state.grid import (
     CHUNKS,
     KEY_SHIFT,
-    NODES,
-    SIDE,
     Grid,
     Mesh,
     corners_of,
     cut,
     keys_of,
 )
+from mpmgeo.state.layout import NODES, SIDE
 
 WIDTHS = (2, 3, 4, 5, 6, 9, 10)
 MESH = Mesh.of((0.0, 0.0, 0.0), (1.0, 1.0, 1.0), (40, 40, 40))
