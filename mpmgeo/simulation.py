@@ -10,7 +10,7 @@ import numpy as np
 
 from mpmgeo.case.build import build, critical_time_step
 from mpmgeo.mpm.incidents import Unsound
-from mpmgeo.naming import PLANES
+from mpmgeo.naming import GHOSTS, PLANES
 from mpmgeo.output.final_stress import FinalStress
 from mpmgeo.output.histories import Histories, histories_of
 from mpmgeo.output.particle_fields import particle_field
@@ -277,4 +277,4 @@ class Simulation:
         used = records[:, 6] > self.solver.cutoff
         mesh = self.case.mesh
         position = index[used] * np.array(mesh.cells_dimension) + mesh.origin
-        return Nodes(index[used] + 2, position, records[used, 6], records[used, :3])
+        return Nodes(index[used] + GHOSTS, position, records[used, 6], records[used, :3])

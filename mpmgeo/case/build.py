@@ -11,13 +11,13 @@ from mpmgeo.case.bindings import bind_pressure, bind_terrain, bind_tools
 from mpmgeo.case.populate import populate
 from mpmgeo.case.saturate import saturate
 from mpmgeo.damping import KineticDamping, LocalDamping
-from mpmgeo.loads.point import GHOSTS
 from mpmgeo.materials import saturation
 from mpmgeo.materials.rotation import ROTATIONS
 from mpmgeo.mpm.point_loads import PointLoads
 from mpmgeo.mpm.schemes import SCHEMES, SCHEMES_OF_TWO_PHASES
 from mpmgeo.mpm.solver import Solver
 from mpmgeo.mpm.two_phase import PoreFluid
+from mpmgeo.naming import GHOSTS
 from mpmgeo.output.particle_fields import WITH_STRAIN
 from mpmgeo.shapes import SHAPES
 from mpmgeo.state.grid import Grid, Mesh

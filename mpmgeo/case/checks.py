@@ -5,11 +5,11 @@ import math
 import numpy as np
 
 from mpmgeo.case.aliases import NAMED, places
-from mpmgeo.case.report import shown
 from mpmgeo.case.spec import Case
 from mpmgeo.loads import OF_THE_FLUID
 from mpmgeo.materials import saturation
 from mpmgeo.output.fields import FLUID_FIELDS, TERRAIN_FIELDS
+from mpmgeo.values import shown
 
 MOST_STEPS = 1e12
 """Steps beyond which no run comes to its end."""

@@ -8,10 +8,11 @@ from mpmgeo.case.checks import check
 from mpmgeo.case.explain import validate
 from mpmgeo.case.inactive import drop_inactive
 from mpmgeo.case.kinds import Kind, declared, word_of
-from mpmgeo.case.report import CaseError, Report, shown
+from mpmgeo.case.report import CaseError, Report
 from mpmgeo.case.schema import plain
 from mpmgeo.case.spec import Case
 from mpmgeo.case.text import read, survey
+from mpmgeo.values import shown
 
 __all__ = ["CaseError", "load_case", "resolved"]
 

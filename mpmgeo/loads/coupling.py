@@ -13,10 +13,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mpmgeo.listed import is_number, position_problem, read_entries, shown
+from mpmgeo.listed import position_problem, read_entries
 from mpmgeo.numerics.fit import linear_fit
 from mpmgeo.numerics.neighbours import Neighbours
 from mpmgeo.parameters import parameter
+from mpmgeo.values import is_number, shown
 
 RADII = {"nearest": 0.5, "linear": 1.5}
 """Radius of the search in mean cell sizes where none is given."""

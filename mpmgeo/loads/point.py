@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mpmgeo.naming import GHOSTS
 from mpmgeo.parameters import Vector, parameter
 
-GHOSTS = 2
 ROUND_OFF = 1e-9
 
 

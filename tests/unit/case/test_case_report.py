@@ -2,7 +2,8 @@
 
 import pytest
 
-from mpmgeo.case.report import CaseError, Report, nearest, shown, shown_key
+from mpmgeo.case.report import CaseError, Report, nearest, shown_key
+from mpmgeo.values import shown
 
 
 def test_paths_read_as_the_user_wrote_them():
