@@ -8,7 +8,8 @@ from typing import NamedTuple
 import numba
 import numpy as np
 
-from mpmgeo.case.build import build, critical_time_step
+from mpmgeo.case.building.solver import build
+from mpmgeo.case.building.time_step import critical_time_step
 from mpmgeo.mpm.incidents import Unsound
 from mpmgeo.naming import GHOSTS, PLANES
 from mpmgeo.output.final_stress import FinalStress

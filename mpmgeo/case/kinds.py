@@ -81,6 +81,18 @@ def declared(cls) -> Iterator[Declared]:
             yield Declared(key, kind_of(hints[item.name]), item)
 
 
+def containers(cls, place=()) -> Iterator[tuple[tuple[str, ...], tuple[type, ...]]]:
+    """Yield places of lists of objects, outside of such lists, with the classes of their entries.
+
+    A case may write them as objects, too, and so gives their entries names.
+    """
+    for key, kind, _ in declared(cls):
+        if kind.is_container:
+            yield (*place, key), kind.item.classes
+        for inner in kind.classes:
+            yield from containers(inner, (*place, key))
+
+
 def word_of(cls) -> str | None:
     """Return the JSON word by which `"type"` chooses a class, None for a class without one."""
     return getattr(cls, "type", None)
