@@ -1,7 +1,7 @@
 """What acts on the material, as a case has it: loads, prescribed motions, contact.
 
 The class of an action says in its own file where it stands in a case, what it needs and what it
-does not go with. `case/` reads these declarations and knows no action by name.
+does not go with; field, schema, checks and remarks of a case follow from that.
 """
 
 from collections.abc import Iterator
