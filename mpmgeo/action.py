@@ -5,6 +5,7 @@ does not go with; field, schema, checks and remarks of a case follow from that.
 """
 
 from collections.abc import Iterator
+from math import inf
 from typing import ClassVar
 
 import numpy as np
@@ -56,3 +57,7 @@ class Action:
         position (n, 3) [m] and number of the body (n,) of all particles; cell (3,) [m].
         """
         return None
+
+    def ends(self) -> tuple[str, float]:
+        """Return what in its file ends before a longer run does, and when [s]."""
+        return "", inf

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from math import inf
 from pathlib import Path
 from typing import ClassVar
 
@@ -53,3 +54,7 @@ class BaseAcceleration(Action):
     def remarks_on_file(self) -> Iterator[str]:
         """Yield what the user should know about the record."""
         yield from self._record.warnings if self.active else ()
+
+    def ends(self) -> tuple[str, float]:
+        """Return when the record ends [s]."""
+        return "record", float(self._record.time[-1]) if self.active else inf

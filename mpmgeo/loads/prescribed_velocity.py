@@ -4,7 +4,7 @@ from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from math import nan
+from math import inf, nan
 from pathlib import Path
 from typing import ClassVar
 
@@ -133,3 +133,7 @@ class PrescribedVelocity(Action):
         if self.plane is not None or self.chooses(position, body).any():
             return None
         return "no particle is meant; nothing happens"
+
+    def ends(self) -> tuple[str, float]:
+        """Return when the table ends [s]; a constant velocity does not."""
+        return "table", inf if self.file is None else float(self.motion.time[-1])

@@ -24,8 +24,7 @@ def lint(simulation) -> list[str]:
         *_time_step(simulation),
         *_outside(position, case.mesh),
         *_empty_bodies(case, body),
-        *_idle(case, position, body),
-        *_tables(case),
+        *_actions(case, position, body),
         *_probes(case),
         *_record(case, simulation.time_step),
     ]
@@ -56,22 +55,17 @@ def _empty_bodies(case, body_of_particle) -> Iterator[str]:
             yield f"body {number} ({label}) holds no particle"
 
 
-def _idle(case, position, body) -> Iterator[str]:
+def _actions(case, position, body) -> Iterator[str]:
     cell = np.array(case.mesh.cells_dimension)
     for action in ACTIONS:
         for number, entry in enumerate(case.entries(action), start=1):
-            reason = entry.idle(position, body, cell)
+            name = entry.name if action.called else f"entry {number}"
+            where = f"{action.key}, {name}" if action.is_several else action.key
+            reason, (what, end) = entry.idle(position, body, cell), entry.ends()
             if reason is not None:
-                name = entry.name if action.called else f"entry {number}"
-                yield f"{action.key}, {name}: {reason}"
-
-
-def _tables(case) -> Iterator[str]:
-    for entry in case.prescribed_velocity:
-        end = entry.motion.time[-1]
-        if entry.file is not None and end < case.time:
-            where = f"prescribed_velocity, {entry.name}"
-            yield f"{where}: the table ends at {end:g} s, the run at {case.time:g} s"
+                yield f"{where}: {reason}"
+            if end < case.time:
+                yield f"{where}: the {what} ends at {end:g} s, the run at {case.time:g} s"
 
 
 def _probes(case) -> Iterator[str]:
@@ -87,9 +81,7 @@ def _record(case, time_step) -> Iterator[str]:
     if case.earthquake is None or not case.earthquake.active:
         return
     record = case.earthquake.record()
-    end, frequency = record.time[-1], significant_frequency(record)
-    if end < case.time:
-        yield f"earthquake: the record ends at {end:g} s, the run at {case.time:g} s"
+    frequency = significant_frequency(record)
     if frequency == 0:
         return
     shakes, period = f"earthquake: the record shakes with up to {frequency:.3g} Hz", 1 / frequency

@@ -124,7 +124,7 @@ class _Maker:
         return None if is_wrong else {word_of(c): c for c in classes}[value["type"]]
 
     def _part(self, cls, value, path):
-        keys = list(declared(cls))
+        keys = declared(cls)
         steps = {item.key: item.key for item in keys}
         if isinstance(value, list):
             steps = {item.key: index for index, item in enumerate(keys)}
