@@ -20,7 +20,7 @@ class Action:
     its own that turns it on, without which nothing of it is read; `needs_two_phases`: without
     effect with one; `one_phase_only`: why it does not go with two, "" if it does; `called`: what
     the names of entries in a list begin with, if it has names; `in_mesh`: keys of its points that
-    have to lie in the mesh.
+    have to lie in the mesh. A key `material_id` has to be the id of a material.
 
     Besides the members below it has what it does, as one or more of
 
