@@ -123,7 +123,7 @@ def _build(case, arguments, output):
 
     `case`: None for that of the snapshot to resume.
     """
-    from mpmgeo.case.lint import lint
+    from mpmgeo.case.building.lint import lint
     from mpmgeo.case.report import CaseError
     from mpmgeo.simulation import Simulation
 

@@ -43,7 +43,7 @@ class Effect:
     def stopped(self, solver):
         """The particles have been stopped."""
 
-    def walls(self, walls):
+    def keeping(self, walls):
         """Return those of the planes, `walls`, that particles do not pass, as far as it knows."""
         return walls
 

@@ -4,8 +4,7 @@ import json
 from collections.abc import Callable
 from pathlib import Path
 
-LARGEST = 1e100
-"""Number beyond which products of three overflow."""
+from mpmgeo.values import is_number, shown
 
 
 def read_entries(path: Path | str, needs: str, problem: Callable) -> list[dict]:
@@ -41,14 +40,3 @@ def position_problem(entry) -> str | None:
     if not isinstance(place, list) or len(place) != 3 or not all(map(is_number, place)):
         return f'"position" needs three finite numbers, has {shown(place)}'
     return None
-
-
-def is_number(value) -> bool:
-    """Tell whether a JSON value is a number that can be calculated with."""
-    return type(value) in (int, float) and abs(value) <= LARGEST
-
-
-def shown(value) -> str:
-    """Return a JSON value as messages show it."""
-    text = json.dumps(value)
-    return text if len(text) <= 60 else text[:59] + "…"

@@ -1,10 +1,13 @@
-"""Names in cases and their results."""
+"""Names and numbers in cases and their results."""
 
 import re
 from collections.abc import Iterator
 
 PLANES = ("X0", "Y0", "Z0", "Xn", "Yn", "Zn")
 """The six planes that bound the mesh."""
+
+GHOSTS = 2
+"""Layers of nodes around the mesh that numbers of nodes count, as in MPM-Geomechanics."""
 
 NAME = re.compile(r"[\w+-][\w .+-]{0,59}")
 

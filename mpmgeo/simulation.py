@@ -8,10 +8,10 @@ from typing import NamedTuple
 import numba
 import numpy as np
 
-from mpmgeo.case.build import build, critical_time_step
-from mpmgeo.loads.point import GHOSTS
+from mpmgeo.case.building.solver import build
+from mpmgeo.case.building.time_step import critical_time_step
 from mpmgeo.mpm.incidents import Unsound
-from mpmgeo.naming import PLANES
+from mpmgeo.naming import GHOSTS, PLANES
 from mpmgeo.numerics.jit import remarks
 from mpmgeo.output.final_stress import FinalStress
 from mpmgeo.output.histories import Histories, histories_of

@@ -6,7 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mpmgeo.listed import is_number, position_problem, read_entries, shown
+from mpmgeo.listed import position_problem, read_entries
+from mpmgeo.values import is_number, shown
 
 
 class ParticleTable(NamedTuple):

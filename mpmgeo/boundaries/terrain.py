@@ -9,8 +9,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
+from mpmgeo.action import Action
 from mpmgeo.boundaries.stl import read_stl
 from mpmgeo.boundaries.surface import Surface, surface_of
 from mpmgeo.parameters import parameter
@@ -25,8 +26,14 @@ class Symbols(NamedTuple):
 
 
 @dataclass(frozen=True)
-class TerrainContact:
+class TerrainContact(Action):
     """Contact with a terrain given by triangles, rigid, with Coulomb friction."""
+
+    key: ClassVar[str] = "terrain_contact"
+    about: ClassVar[str] = "Contact with a terrain"
+    is_several: ClassVar[bool] = False
+    switch: ClassVar[str | None] = "active"
+    one_phase_only: ClassVar[str] = "a terrain does not hold the pore fluid; leave one of them out"
 
     active: bool = parameter("Whether there is contact", default=False)
     stl_mesh: Path | None = parameter(

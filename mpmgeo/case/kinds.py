@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import MISSING, Field, fields, is_dataclass
+from functools import cache
 from pathlib import Path
 from types import NoneType, UnionType
 from typing import NamedTuple, Union, get_args, get_origin, get_type_hints
@@ -72,13 +73,27 @@ def kind_of(annotation) -> Kind:
     raise TypeError(f"{annotation} stands for no kind of JSON value")
 
 
-def declared(cls) -> Iterator[Declared]:
-    """Yield the JSON keys of a dataclass in the order of their declaration."""
+@cache
+def declared(cls) -> tuple[Declared, ...]:
+    """Return the JSON keys of a dataclass in the order of their declaration."""
     hints = get_type_hints(cls)
-    for item in fields(cls):
-        if "doc" in item.metadata:
-            key = item.metadata["key"] or item.name
-            yield Declared(key, kind_of(hints[item.name]), item)
+    return tuple(
+        Declared(item.metadata["key"] or item.name, kind_of(hints[item.name]), item)
+        for item in fields(cls)
+        if "doc" in item.metadata
+    )
+
+
+def containers(cls, place=()) -> Iterator[tuple[tuple[str, ...], tuple[type, ...]]]:
+    """Yield places of lists of objects, outside of such lists, with the classes of their entries.
+
+    A case may write them as objects, too, and so gives their entries names.
+    """
+    for key, kind, _ in declared(cls):
+        if kind.is_container:
+            yield (*place, key), kind.item.classes
+        for inner in kind.classes:
+            yield from containers(inner, (*place, key))
 
 
 def word_of(cls) -> str | None:

@@ -1,11 +1,9 @@
 """What there is to say about a case file: errors, warnings and notes, each with its JSON path."""
 
-import json
 import re
 from difflib import get_close_matches
 
-LONGEST = 60
-"""Characters of a value or key that a message shows."""
+from mpmgeo.values import LONGEST, shown
 
 
 class CaseError(ValueError):
@@ -60,33 +58,6 @@ class Report:
             problems, warnings = problems + warnings, []
         if problems:
             raise CaseError(problems, warnings, self.notes.values())
-
-
-def shown(value) -> str:
-    """Return a JSON value as messages show it: one short line that any terminal can print."""
-    if isinstance(value, dict):
-        return f"an object of {_count(value, 'key')}" if value else "{}"
-    if isinstance(value, list) and (len(value) > 6 or _is_nested(value)):
-        return f"a list of {_count(value, 'value')}"
-    return printable(json.dumps(value, ensure_ascii=False, default=str))
-
-
-def printable(text) -> str:
-    """Return a text cut to a length that messages can show, without what would upset a terminal."""
-    text = text[: LONGEST + 1].encode("utf-8", "backslashreplace").decode()
-    text = "".join(c if c.isprintable() else f"\\u{ord(c):04x}" for c in text)
-    return text if len(text) <= LONGEST else text[: LONGEST - 1] + "…"
-
-
-def _count(values, noun):
-    return f"{len(values)} {noun}{'s'[: len(values) != 1]}"
-
-
-def _is_nested(values):
-    inside = [entry for value in values if isinstance(value, list) for entry in value]
-    return any(isinstance(value, dict) for value in values) or any(
-        isinstance(entry, dict | list) for entry in inside
-    )
 
 
 def shown_key(key) -> str:

@@ -1,7 +1,7 @@
 """What a snapshot says about its case, and whether a case is the one of a snapshot."""
 
-from mpmgeo.case.fingerprint import differences, fingerprint
 from mpmgeo.case.load import load_case, resolved
+from mpmgeo.case.meaning.fingerprint import differences, fingerprint
 
 MOST_DIFFERENCES = 5
 """Differences that a message names."""

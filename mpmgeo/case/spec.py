@@ -1,10 +1,10 @@
 """What a case may say: every JSON key declared once, with unit, bounds, default and one sentence.
 
-Materials, bodies, loads, boundaries and damping declare their own keys in their own packages.
+Materials, bodies, actions, boundaries and damping declare their own keys in their own packages.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, make_dataclass
 from functools import reduce
 from math import isfinite, prod
 from operator import or_
@@ -14,17 +14,7 @@ from mpmgeo.bodies import BODIES
 from mpmgeo.boundaries.planes import BoundaryConditions
 from mpmgeo.boundaries.terrain import TerrainContact
 from mpmgeo.damping import DAMPINGS, NoDamping
-from mpmgeo.loads import (
-    BaseAcceleration,
-    BoxLoad,
-    HydroMechanicalCoupling,
-    InitialPressureBox,
-    InitialPressureMaterial,
-    PointLoad,
-    PrescribedPressureBox,
-    PrescribedVelocity,
-    PressureForceBox,
-)
+from mpmgeo.loads import LOADS
 from mpmgeo.materials import LAWS
 from mpmgeo.mpm.schemes import SCHEMES
 from mpmgeo.output.fields import (
@@ -43,8 +33,15 @@ Body = reduce(or_, BODIES)
 Damping = reduce(or_, DAMPINGS)
 Probe = reduce(or_, PROBES)
 
-LISTED = (PointLoad,)
-"""Classes that a case may write as the list of their values, without keys."""
+ACTIONS = (*LOADS, TerrainContact)
+"""All that may act on the material; each is declared in its own file."""
+
+NOT_WITH_TWO_PHASES = (
+    ("stress_scheme_update", "USF", '"USF" is for one phase; accepted with two: "USL", "MUSL"'),
+    ("compatibility", None, "two phases have no earlier form that is worth keeping; leave it out"),
+    *((cls.key, None, cls.one_phase_only) for cls in ACTIONS if cls.one_phase_only),
+)
+"""Keys and values (None: any) that do not go with two phases, and why."""
 
 RESOLUTION = 1e-12
 """Smallest cell edge relative to the largest coordinate that doubles still resolve usefully."""
@@ -168,8 +165,8 @@ class SnapshotPlan:
 
 
 @dataclass(frozen=True)
-class Case:
-    """A simulation as its case file describes it, checked, defaults filled in, SI units."""
+class Settings:
+    """What a case says besides its actions and results."""
 
     title: str = parameter("What the case is", default="")
     reference: str = parameter("Where the case or its expected numbers come from", default="")
@@ -228,36 +225,35 @@ class Case:
     materials: tuple[Law, ...] = parameter("The materials")
     body: tuple[Body, ...] = parameter("The bodies")
     damping: Damping = parameter("Damping of the motion", default=NoDamping())
-    nodal_point_load: tuple[PointLoad, ...] = parameter(
-        "Forces on single nodes, each [[x, y, z], [Fx, Fy, Fz]]", default=()
-    )
-    load_distributed_box: tuple[BoxLoad, ...] = parameter(
-        "Forces shared by the particles in a box", default=()
-    )
-    prescribed_velocity: tuple[PrescribedVelocity, ...] = parameter(
-        "Velocities that bodies, particles in a box or planes of the mesh keep", default=()
-    )
-    prescribed_pressure_box: tuple[PrescribedPressureBox, ...] = parameter(
-        "Pore pressures that particles keep; with two phases", default=()
-    )
-    initial_pressure_box: tuple[InitialPressureBox, ...] = parameter(
-        "Pore pressures at the start, in boxes; with two phases", default=()
-    )
-    initial_pressure_material: tuple[InitialPressureMaterial, ...] = parameter(
-        "Pore pressures at the start, of materials; with two phases", default=()
-    )
-    pressure_force_box: tuple[PressureForceBox, ...] = parameter(
-        "Forces on the pore fluid; with two phases", default=()
-    )
-    hydro_mechanical_coupling: HydroMechanicalCoupling | None = parameter(
-        "Pore pressures from a file", default=None
-    )
-    terrain_contact: TerrainContact | None = parameter("Contact with a terrain", default=None)
-    earthquake: BaseAcceleration | None = parameter(
-        "Motion of the base: of the terrain if there is one, else of the lowest plane", default=None
-    )
+
+
+def _field_of(action):
+    """Return name, annotation and dataclass field of an action's key in a case."""
+    if action.is_several:
+        return action.key, tuple[action, ...], parameter(action.about, default=())
+    return action.key, action | None, parameter(action.about, default=None)
+
+
+Actions = make_dataclass("Actions", map(_field_of, ACTIONS), frozen=True)
+
+
+@dataclass(frozen=True)
+class Case(Actions, Settings):
+    """A simulation as its case file describes it, checked, defaults filled in, SI units."""
+
     results: Results = parameter("What the run writes", default=Results())
 
     notes: tuple[str, ...] = field(default=(), kw_only=True, compare=False)
     warnings: tuple[str, ...] = field(default=(), kw_only=True, compare=False)
     folder: Path = field(default=Path(), kw_only=True, compare=False)
+
+    def entries(self, action: type) -> tuple:
+        """Return what the case has of a class of actions, none of it if it has no effect."""
+        if action.needs_two_phases and self.n_phases == 1:
+            return ()
+        found = getattr(self, action.key)
+        return found if action.is_several else (found,) * (found is not None)
+
+    def acting(self, how: str) -> list:
+        """Return the actions that have an effect and a method of a name, in order of ACTIONS."""
+        return [entry for cls in ACTIONS if hasattr(cls, how) for entry in self.entries(cls)]

@@ -8,10 +8,11 @@ from collections.abc import Iterator
 from dataclasses import MISSING
 from pathlib import Path
 
-from mpmgeo.case.aliases import ALIASES, IGNORED, OBSOLETE
-from mpmgeo.case.explain import accepted
+from mpmgeo.case.canonical import plain
 from mpmgeo.case.kinds import declared, word_of
-from mpmgeo.case.schema import case_schema, definition_of, plain
+from mpmgeo.case.reading.aliases import ALIASES, IGNORED, OBSOLETE
+from mpmgeo.case.reading.explain import accepted
+from mpmgeo.case.reading.schema import case_schema, definition_of
 from mpmgeo.case.spec import Case
 from mpmgeo.output.fields import (
     FLUID_FIELDS,

@@ -1,4 +1,4 @@
-"""Loads: one file each, one line each in LOADS under the JSON key that names it."""
+"""Loads: one file each, one line each in LOADS."""
 
 from mpmgeo.loads.base_acceleration import BaseAcceleration
 from mpmgeo.loads.box import BoxLoad
@@ -13,29 +13,21 @@ from mpmgeo.loads.pore_pressure import (
 from mpmgeo.loads.prescribed_velocity import PrescribedVelocity
 from mpmgeo.loads.record import Record, read_record
 
-LOADS = {
-    "nodal_point_load": PointLoad,
-    "load_distributed_box": BoxLoad,
-    "prescribed_velocity": PrescribedVelocity,
-    "prescribed_pressure_box": PrescribedPressureBox,
-    "initial_pressure_box": InitialPressureBox,
-    "initial_pressure_material": InitialPressureMaterial,
-    "pressure_force_box": PressureForceBox,
-    "hydro_mechanical_coupling": HydroMechanicalCoupling,
-    "earthquake": BaseAcceleration,
-}
-
-OF_THE_FLUID = (
-    "prescribed_pressure_box",
-    "initial_pressure_box",
-    "initial_pressure_material",
-    "pressure_force_box",
+LOADS = (
+    BoxLoad,
+    PointLoad,
+    PrescribedVelocity,
+    InitialPressureBox,
+    InitialPressureMaterial,
+    PrescribedPressureBox,
+    PressureForceBox,
+    HydroMechanicalCoupling,
+    BaseAcceleration,
 )
-"""Loads that act with two phases only."""
+"""All loads; forces add up in this order, and of several pore pressures the last one counts."""
 
 __all__ = [
     "LOADS",
-    "OF_THE_FLUID",
     "BaseAcceleration",
     "BoxLoad",
     "HydroMechanicalCoupling",

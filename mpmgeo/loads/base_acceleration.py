@@ -2,15 +2,26 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
+from math import inf
 from pathlib import Path
+from typing import ClassVar
 
+from mpmgeo.action import Action
 from mpmgeo.loads.record import Record, read_record
 from mpmgeo.parameters import parameter
 
 
 @dataclass(frozen=True)
-class BaseAcceleration:
+class BaseAcceleration(Action):
     """Acceleration of the base, read from a text file of time and three components."""
+
+    key: ClassVar[str] = "earthquake"
+    about: ClassVar[str] = (
+        "Motion of the base: of the terrain if there is one, else of the lowest plane"
+    )
+    is_several: ClassVar[bool] = False
+    switch: ClassVar[str | None] = "active"
 
     active: bool = parameter("Whether the base moves", default=False)
     file: Path | None = parameter(
@@ -27,4 +38,23 @@ class BaseAcceleration:
 
     def record(self) -> Record:
         """Read the file; raises ValueError as `read_record` does."""
+        return self._record
+
+    @cached_property
+    def _record(self):
         return read_record(self.file, self.header)
+
+    def complaints(self) -> Iterator[tuple[str, str]]:
+        """Yield (key, message) if the file cannot be used."""
+        try:
+            _ = self._record if self.active else None
+        except ValueError as error:
+            yield "file", str(error)
+
+    def remarks_on_file(self) -> Iterator[str]:
+        """Yield what the user should know about the record."""
+        yield from self._record.warnings if self.active else ()
+
+    def ends(self) -> tuple[str, float]:
+        """Return when the record ends [s]."""
+        return "record", float(self._record.time[-1]) if self.active else inf

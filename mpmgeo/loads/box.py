@@ -1,16 +1,29 @@
-"""A force shared by the particles in a box."""
+"""What acts on the particles in a box: a force that they share."""
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
+from mpmgeo.action import Action
 from mpmgeo.parameters import Vector, parameter
 from mpmgeo.region import Box
 
 
+class ActionInBox(Action, Box):
+    """An action on the particles that start in a closed box."""
+
+    def idle(self, position: np.ndarray, body: np.ndarray, cell: np.ndarray) -> str | None:
+        """Return that the box is empty, None if it is not."""
+        return None if self.contains(position).any() else "no particle in the box; nothing happens"
+
+
 @dataclass(frozen=True)
-class BoxLoad(Box):
+class BoxLoad(ActionInBox):
     """A constant total force, shared equally by the particles that start inside a closed box."""
+
+    key: ClassVar[str] = "load_distributed_box"
+    about: ClassVar[str] = "Forces shared by the particles in a box"
 
     load: Vector = parameter("Total force", unit="N")
 

@@ -9,14 +9,16 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
-from mpmgeo.listed import is_number, position_problem, read_entries, shown
+from mpmgeo.action import Action
+from mpmgeo.listed import position_problem, read_entries
 from mpmgeo.numerics.fit import linear_fit
 from mpmgeo.numerics.neighbours import Neighbours
 from mpmgeo.parameters import parameter
+from mpmgeo.values import is_number, shown
 
 RADII = {"nearest": 0.5, "linear": 1.5}
 """Radius of the search in mean cell sizes where none is given."""
@@ -39,8 +41,14 @@ class Pressures(NamedTuple):
 
 
 @dataclass(frozen=True)
-class HydroMechanicalCoupling:
+class HydroMechanicalCoupling(Action):
     """Pore pressures that a file gives at points and that the particles keep for the whole run."""
+
+    key: ClassVar[str] = "hydro_mechanical_coupling"
+    about: ClassVar[str] = "Pore pressures from a file"
+    is_several: ClassVar[bool] = False
+    switch: ClassVar[str | None] = "enabled"
+    one_phase_only: ClassVar[str] = "pressures from a file and two phases exclude each other"
 
     enabled: bool = parameter("Whether the pore pressures act", default=False)
     kind: str = parameter(

@@ -1,18 +1,31 @@
 """A force on one node of the grid."""
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
+from mpmgeo.action import Action
+from mpmgeo.effect import Effect
+from mpmgeo.naming import GHOSTS
 from mpmgeo.parameters import Vector, parameter
+from mpmgeo.state.grid import keys_of
+from mpmgeo.state.layout import NODES, SIDE, inner, place, volume
 
-GHOSTS = 2
 ROUND_OFF = 1e-9
+
+REACH = 1.5
+"""Cells between a particle and the nodes that it still carries mass to."""
 
 
 @dataclass(frozen=True)
-class PointLoad:
+class PointLoad(Action):
     """A constant force on the node nearest to a point."""
+
+    key: ClassVar[str] = "nodal_point_load"
+    about: ClassVar[str] = "Forces on single nodes, each [[x, y, z], [Fx, Fy, Fz]]"
+    may_be_list: ClassVar[bool] = True
+    in_mesh: ClassVar[tuple[str, ...]] = ("position",)
 
     position: Vector = parameter("Point whose nearest node carries the force", unit="m")
     force: Vector = parameter("Force", unit="N")
@@ -25,3 +38,76 @@ class PointLoad:
         """
         distance = (np.array(self.position) - origin) / cell
         return np.floor(distance + 0.5 + ROUND_OFF).astype(np.int64) + GHOSTS
+
+    def idle(self, position: np.ndarray, body: np.ndarray, cell: np.ndarray) -> str | None:
+        """Return that no particle is near, None if one is."""
+        near = (np.abs(position - self.position) / cell < REACH).all(axis=1)
+        if near.any():
+            return None
+        return f"no particle near {list(self.position)}; the force has no effect until one comes"
+
+    @classmethod
+    def effect(cls, loads, mesh):
+        """Return what puts the forces on their nodes, None without loads."""
+        if not loads:
+            return None
+        origin, cell = np.array(mesh[:3]), np.array(mesh[3:6])
+        nodes = [load.node(origin, cell) - GHOSTS for load in loads]
+        return PointLoads(nodes, [load.force for load in loads])
+
+
+class PointLoads(Effect):
+    """Constant forces (k, 3) [N] on the nodes of index (k, 3)."""
+
+    name = "point loads"
+
+    def __init__(self, node, force):
+        self.node = np.asarray(node, np.int64)
+        self.force = np.asarray(force, float)
+        self._keys = None
+
+    def _find(self, grid):
+        """Find a tile that covers each node, and the node's record among those of all tiles."""
+        corner = self.node // SIDE
+        self._keys = grid.keys
+        self._owner = np.full(len(self.node), -1)
+        self._at = np.zeros(len(self.node), np.int64)
+        for index, key in enumerate(keys_of(corner)):
+            block = np.searchsorted(grid.active, key)
+            if block == len(grid.active) or grid.active[block] != key:
+                continue
+            for owner in grid.below[block]:
+                local = self.node[index] - grid.corner[owner] * SIDE
+                if owner >= 0 and (local < grid.side).all():
+                    self._owner[index] = owner
+                    self._at[index] = owner * volume(grid.rows) + place(grid.rows, *local)
+                    break
+
+    def before_nodes(self, solver, task):
+        """Add the forces to the tiles; one on a node that no tile covers does nothing."""
+        grid = solver.grid
+        if self._keys is not grid.keys:
+            self._find(grid)
+        covered = self._owner >= 0
+        np.add.at(grid.solid.in_tiles("force"), self._at[covered], self.force[covered])
+
+    def news(self, solver):
+        """Tell, once the nodes have their masses, of loads that act on nothing."""
+        yield (
+            "point loads",
+            lambda: [
+                f"nodal_point_load, entry {number}: its node carries no mass at the start; "
+                "the force acts only while material is there"
+                for number in np.flatnonzero(self.idle(solver.grid)) + 1
+            ],
+        )
+
+    def idle(self, grid):
+        """Return which loads (k,) act on a node without mass, and so on nothing."""
+        mass = np.zeros(len(self.node))
+        known, keys = grid.solid.at_nodes("mass"), keys_of(self.node // SIDE)
+        for index, (key, at) in enumerate(zip(keys, self.node % SIDE, strict=True)):
+            block = np.searchsorted(grid.active, key)
+            if block < len(grid.active) and grid.active[block] == key:
+                mass[index] = known[block * NODES + inner(*at)]
+        return mass == 0.0

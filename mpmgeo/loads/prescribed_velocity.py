@@ -4,11 +4,13 @@ from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from math import nan
+from math import inf, nan
 from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
 
+from mpmgeo.action import Action
 from mpmgeo.loads.table import read_table
 from mpmgeo.naming import PLANES, name_problems
 from mpmgeo.parameters import Components, Vector, parameter
@@ -50,8 +52,12 @@ class Motion:
 
 
 @dataclass(frozen=True)
-class PrescribedVelocity:
+class PrescribedVelocity(Action):
     """A velocity that particles or the nodes of a plane keep, whatever the forces."""
+
+    key: ClassVar[str] = "prescribed_velocity"
+    about: ClassVar[str] = "Velocities that bodies, particles in a box or planes of the mesh keep"
+    called: ClassVar[str | None] = "prescribed_velocity"
 
     name: str = parameter("Name of the file of its history, in the folder reactions", default="")
     body: int | None = parameter("Number of a body, from 1", minimum=1, default=None)
@@ -121,3 +127,13 @@ class PrescribedVelocity:
         if self.body is not None:
             return body == self.body
         return within(self.point_p1, self.point_p2, position)
+
+    def idle(self, position: np.ndarray, body: np.ndarray, cell: np.ndarray) -> str | None:
+        """Return that neither a plane nor a particle is meant, None if one is."""
+        if self.plane is not None or self.chooses(position, body).any():
+            return None
+        return "no particle is meant; nothing happens"
+
+    def ends(self) -> tuple[str, float]:
+        """Return when the table ends [s]; a constant velocity does not."""
+        return "table", inf if self.file is None else float(self.motion.time[-1])

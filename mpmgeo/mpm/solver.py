@@ -164,7 +164,7 @@ class Solver(Stages):
             return OPEN
         walls = self.planes.walls
         for effect in self.effects:
-            walls = effect.walls(walls)
+            walls = effect.keeping(walls)
         return walls
 
     # What a run must hold to go on

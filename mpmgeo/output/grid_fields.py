@@ -4,6 +4,8 @@ from functools import cache
 
 import numpy as np
 
+from mpmgeo.naming import GHOSTS
+
 _NAMES = {
     "id": "NodeId",
     "active": "Active",
@@ -18,10 +20,10 @@ _NAMES = {
 def grid_arrays(solver, node_id, keys):
     """Return the arrays of a grid file at the nodes `node_id` (n,), ascending, by their names."""
     grid, mesh = solver.grid, solver.grid.mesh
-    nodes = np.array([mesh.nx, mesh.ny, mesh.nz]) + 5
+    nodes = np.array([mesh.nx, mesh.ny, mesh.nz]) + 2 * GHOSTS + 1
     mass, velocity = np.zeros(len(node_id)), np.zeros((len(node_id), 3))
     if {"active", "mass", "velocity"} & set(keys):
-        index, known = grid.indices().reshape(-1, 3) + 2, grid.solid.at_nodes("mass")
+        index, known = grid.indices().reshape(-1, 3) + GHOSTS, grid.solid.at_nodes("mass")
         inside = (index >= 0).all(axis=1) & (index < nodes).all(axis=1)
         used = inside & (known > solver.cutoff)
         index = index[used]
@@ -53,7 +55,7 @@ def _position(mesh, nodes, node_id):
     """Return the positions (n, 3) [m] of nodes."""
     i, j, k = _index(nodes, node_id)
     cell, origin = [mesh.hx, mesh.hy, mesh.hz], [mesh.ox, mesh.oy, mesh.oz]
-    return (np.stack([i, j, k], axis=-1) - 2) * cell + origin
+    return (np.stack([i, j, k], axis=-1) - GHOSTS) * cell + origin
 
 
 def _index(nodes, node_id):
@@ -64,7 +66,7 @@ def _index(nodes, node_id):
 def _density(solver, nodes, node_id):
     """Return the share of the nodes' volume that particles fill."""
     density = solver.ground.density(solver).ravel()
-    index = solver.grid.indices().reshape(-1, 3) + 2
+    index = solver.grid.indices().reshape(-1, 3) + GHOSTS
     inside = (index >= 0).all(axis=1) & (index < nodes).all(axis=1) & (density > 0)
     number = index[inside] @ np.array([1, nodes[0], nodes[0] * nodes[1]])
     values = np.zeros(len(node_id))

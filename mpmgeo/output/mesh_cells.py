@@ -5,8 +5,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-GHOSTS = 2
-BLOCK = 4
+from mpmgeo.naming import GHOSTS
+from mpmgeo.state.grid import SIDE
+
 CORNERS = np.array(
     [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]]
 )
@@ -48,7 +49,7 @@ def block_cells(mesh, blocks) -> MeshCells:
     what reaches beyond the mesh is left out.
     """
     nodes = _nodes(mesh)
-    within = np.stack(np.meshgrid(*3 * [np.arange(BLOCK)]), axis=-1).reshape(-1, 3)
+    within = np.stack(np.meshgrid(*3 * [np.arange(SIDE)]), axis=-1).reshape(-1, 3)
     index = (np.asarray(blocks, dtype=np.int64).reshape(-1, 1, 3) + within).reshape(-1, 3)
     i, j, k = index[((index >= 0) & (index < nodes - 1)).all(axis=1)].T
     lowest = np.unique(i + nodes[0] * (j + nodes[1] * k))

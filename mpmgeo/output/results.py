@@ -1,11 +1,13 @@
 """Write the results of a run: particle files, grid files, their collections, kinetic energy."""
 
+from mpmgeo.naming import GHOSTS
 from mpmgeo.output.energy import EnergySeries, earlier_rows
 from mpmgeo.output.grid_fields import grid_arrays
 from mpmgeo.output.mesh_cells import all_cells, block_cells
 from mpmgeo.output.particle_fields import particle_arrays
 from mpmgeo.output.pvd import Collection, remove_previous
 from mpmgeo.output.vtu import write_hexahedra, write_points
+from mpmgeo.state.grid import SIDE
 
 TERRAIN = "centroid_points_stl_contact"
 MANY_CELLS = (
@@ -123,4 +125,4 @@ class ResultFiles:
                 '(all of them with "grid_all_cells": true in results)'
             )
         simulation.solver.arrange()
-        return block_cells(self.mesh, simulation.solver.grid.active_corner * 4 + 2)
+        return block_cells(self.mesh, simulation.solver.grid.active_corner * SIDE + GHOSTS)

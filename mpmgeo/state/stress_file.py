@@ -9,10 +9,9 @@ from typing import BinaryIO
 
 import numpy as np
 
-NAME = "particle_stress_data.json"
-LARGEST = 1e100
-"""Stress [Pa] beyond which squares overflow."""
+from mpmgeo.values import is_number
 
+NAME = "particle_stress_data.json"
 SYMMETRY = 1e-6
 """Largest difference of xy and yx, relative to the largest stress of the particle."""
 
@@ -71,7 +70,7 @@ def _problem(entry, seen):
     rows = tensor if isinstance(tensor, list) else []
     numbers = [x for row in rows for x in (row if isinstance(row, list) else ())]
     if [len(row) if isinstance(row, list) else 0 for row in rows] != [3, 3, 3] or not all(
-        type(x) in (int, float) and abs(x) <= LARGEST for x in numbers
+        map(is_number, numbers)
     ):
         return '"stress" needs three rows of three finite numbers'
     slack = SYMMETRY * max(map(abs, numbers))

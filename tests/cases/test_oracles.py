@@ -8,7 +8,7 @@ import pytest
 from scipy.spatial import cKDTree
 
 import mpmgeo
-from mpmgeo.case.text import read
+from mpmgeo.case.reading.text import read
 
 ORACLES = Path(__file__).parents[2].parent / "shared" / "oracles"
 TOLERANCE = {  # of the largest absolute value of a field

@@ -7,7 +7,7 @@ import pytest
 from scipy.spatial import cKDTree
 
 import mpmgeo
-from mpmgeo.case.text import read
+from mpmgeo.case.reading.text import read
 
 FOLDER = Path(__file__).parents[2].parent / "shared" / "oracles" / "pore_pressure_slope"
 

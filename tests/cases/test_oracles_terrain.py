@@ -7,7 +7,7 @@ import pytest
 from scipy.spatial import cKDTree
 from terrains import simulate
 
-from mpmgeo.case.text import read
+from mpmgeo.case.reading.text import read
 
 ORACLES = Path(__file__).parents[2].parent / "shared" / "oracles"
 TOLERANCE = 1e-4  # of the largest absolute value of a field; the files have five digits

@@ -16,8 +16,8 @@ FILE = pytest.mark.parametrize("path", FILES, ids=[str(f.relative_to(PACKAGE)) f
 
 # Each part of the package imports only from the rows above its own.
 LEVELS = (
-    {"parameters", "numerics", "naming", "listed", "effect"},
-    {"region"},
+    {"parameters", "numerics", "naming", "values", "effect"},
+    {"region", "listed", "action"},
     {"state"},
     {"shapes", "materials", "bodies", "boundaries", "loads", "damping", "output"},
     {"mpm"},
@@ -84,15 +84,29 @@ def test_imports_go_one_way(path):
         assert other in ONLY.get(part, {other}), f"{part} imports {other}"
 
 
-def test_only_build_knows_every_package():
-    """Of the reading of cases, nothing but build touches the solver or its kernels."""
-    for path in (PACKAGE / "case").glob("*.py"):
-        if path.name not in ("build.py", "populate.py", "bindings.py"):
+def test_only_building_knows_every_package():
+    """Of the reading of cases, nothing but building touches the solver or its kernels."""
+    for path in (PACKAGE / "case").rglob("*.py"):
+        if path.parent.name != "building":
             parts = parts_imported(path)
             assert not parts & {"state", "numerics", "run"}, path.name
             names = imported(ast.walk(tree_of(path)))
             solvers = [n for n in names if n.startswith("mpmgeo.mpm.") and ".schemes" not in n]
             assert not solvers, path.name
+
+
+ROOMS = ("reading", "meaning", "building")
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_rooms_of_a_case_do_not_know_each_other(room):
+    """They share what a case may say and what there is to say about it, one folder above."""
+    files = sorted((PACKAGE / "case" / room).glob("*.py"))
+    assert len(files) > 3
+    for path in files:
+        names = [name.split(".") for name in imported(ast.walk(tree_of(path)))]
+        visited = {name[2] for name in names if name[:2] == ["mpmgeo", "case"]}
+        assert not visited & ({*ROOMS, "load", "resume", "tables"} - {room}), path.name
 
 
 def test_models_do_not_know_the_cases():

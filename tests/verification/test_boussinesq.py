@@ -9,7 +9,7 @@ from box_elements import BoxUnderForce
 from scenes import initial_position
 
 import mpmgeo
-from mpmgeo.case.text import read
+from mpmgeo.case.reading.text import read
 from mpmgeo.verify.convergence import Convergence, relative_error
 from mpmgeo.verify.half_space import HalfSpace
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import mpmgeo
-from mpmgeo.case.text import read
+from mpmgeo.case.reading.text import read
 
 FOLDER = Path(__file__).parents[2] / "inputs" / "base_acceleration"
 BASE = runpy.run_path(str(FOLDER / "make_record.py"))["BASE"]

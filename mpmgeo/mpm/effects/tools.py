@@ -108,7 +108,7 @@ class Tools(Effect):
 
     stopped = end
 
-    def walls(self, walls):
+    def keeping(self, walls):
         """Return the planes that particles do not pass: not those that move."""
         moved = {walls._fields[axis + 3 * side]: False for axis, side in filter(None, self.planes)}
         return walls._replace(**moved)

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -21,6 +22,8 @@ class Probe:
     Besides the members below a probe has `sampler(simulation)`, which returns an object with
     `columns`, the names of its numbers, and `row()`, the numbers now.
     """
+
+    called: ClassVar[str] = "probe"  # what the names of entries in a list begin with
 
     name: str = parameter("Name of the file of the history, in the folder probes", default="")
     every: int = parameter("Steps between two rows", minimum=1, default=10)

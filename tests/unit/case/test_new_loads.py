@@ -5,9 +5,9 @@ import json
 import pytest
 from jsonschema import Draft202012Validator
 
-from mpmgeo.case.explain import place_of
 from mpmgeo.case.load import load_case, resolved
-from mpmgeo.case.schema import case_schema
+from mpmgeo.case.reading.explain import place_of
+from mpmgeo.case.reading.schema import case_schema
 from mpmgeo.output.fields import PARTICLE_FIELDS
 
 BOX = {"point_p1": [0, 0, 0], "point_p2": [1, 1, 1]}

@@ -128,7 +128,7 @@ class Twin:
         w, wf = planes / self.M[:, None], walls / self.F[:, None]
         D = c * (u - v + h * (b - a)) / (1 + h * c * (w + wf))
         a, b = a + w * D, b - wf * D
-        if self.s.local is not None:
+        if self.s.damping:
             a, b = self.damped(a, v, planes), self.damped(b, u, walls)
         moving = self.M[:, None] > self.s.cutoff
         v, u = v + h * a * moving, u + h * b * moving
@@ -147,7 +147,7 @@ class Twin:
     def damped(self, a, v, free):
         a0, v0 = free * a, free * v
         size, speed = (np.linalg.norm(z, axis=1, keepdims=True) for z in (a0, v0))
-        return a - self.s.local * size * np.divide(v0, speed, where=speed > 0, out=0 * v0)
+        return a - self.s.damping[0].α * size * np.divide(v0, speed, where=speed > 0, out=0 * v0)
 
     def strain(self, L, dt):
         e = (L + L.transpose(0, 2, 1)) / 2

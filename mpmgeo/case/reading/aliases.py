@@ -1,14 +1,14 @@
-"""Every spelling found in old manuals, examples and programs, and the canonical key it stands for.
+"""Every spelling found in old manuals, examples and programs, and the key it stands for."""
 
-A place is a path of canonical keys in which `*` stands for every entry of a container.
-"""
-
-from collections.abc import Iterator
 from typing import NamedTuple
+
+from mpmgeo.case.kinds import containers
+from mpmgeo.case.reading.places import places
+from mpmgeo.case.spec import Case
 
 
 class Alias(NamedTuple):
-    """An old spelling of a key at a place.
+    """An old spelling of a key at a place, as `places` has it.
 
     `remark` ends the note about it; `is_equal`: both spellings are current, so nothing is noted;
     `wins`: the old spelling counts where both are given, as in MPM-Geomechanics.
@@ -52,9 +52,6 @@ FIELD_LISTS = ("material_point_results", "grid_nodal_results", "stl_contact_mesh
 FIELD_WRAPPERS = ("fields", "material_point_results", "grid_nodal_results")
 """Keys of objects that examples put around a list of fields."""
 
-NAMED = {("prescribed_velocity",): "prescribed_velocity", ("results", "probes"): "probe"}
-"""Places of containers whose entries have names, with what the names begin with in lists."""
-
 AUTOMATIC = ("time_step", "n_threads")
 """Top-level keys for which 0 means the same as an absent key."""
 
@@ -72,22 +69,6 @@ def rename(tree, report):
     _raise_material(tree, report)
     _take_material_id(tree, report)
     _name_entries(tree)
-
-
-def places(node, place, path=()) -> Iterator[tuple[tuple, dict]]:
-    """Yield (path, object) for every object of a tree that a place stands for."""
-    if not place:
-        if isinstance(node, dict):
-            yield path, node
-        return
-    key, *rest = place
-    if key == "*":
-        entries = enumerate(node) if isinstance(node, list) else ()
-        entries = node.items() if isinstance(node, dict) else entries
-        for name, entry in entries:
-            yield from places(entry, rest, (*path, name))
-    elif isinstance(node, dict) and key in node:
-        yield from places(node[key], rest, (*path, key))
 
 
 def _rename_one(alias, path, node, report):
@@ -167,8 +148,9 @@ def _take_material_id(tree, report):
 
 def _name_entries(tree):
     """Give the entries that write a file of their own a name: their key, or their number."""
-    for place, prefix in NAMED.items():
-        for path, entry in places(tree, (*place, "*")):
+    for place, classes in containers(Case):
+        prefix = getattr(classes[0], "called", None)
+        for path, entry in places(tree, (*place, "*")) if prefix else ():
             number = path[-1]
             key = f"{prefix}_{number + 1}" if isinstance(number, int) else number
             entry.setdefault("name", key)

@@ -20,9 +20,8 @@ def populate(case, notes):
     listed = np.repeat([body.is_listed for body in bodies], counts)
     material = [np.broadcast_to(cloud.material, len(cloud.position)) for cloud in clouds]
     position = np.concatenate([cloud.position for cloud in clouds])
-    force = None
-    if case.load_distributed_box:
-        force = sum(load.particle_force(position) for load in case.load_distributed_box)
+    loads = case.acting("particle_force")
+    force = sum(load.particle_force(position) for load in loads) if loads else None
     population = Population(
         position=position,
         size=np.concatenate([cloud.size for cloud in clouds]),

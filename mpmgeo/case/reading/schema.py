@@ -2,25 +2,16 @@
 
 from dataclasses import MISSING
 
-from mpmgeo.case.aliases import ALIASES, IGNORED
-from mpmgeo.case.kinds import declared, word_of
-from mpmgeo.case.spec import LISTED, Case
+from mpmgeo.case.canonical import plain
+from mpmgeo.case.kinds import containers, declared, word_of
+from mpmgeo.case.reading.aliases import ALIASES, IGNORED
+from mpmgeo.case.spec import Case
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 INTEGERS = {"minimum": -(2**31), "maximum": 2**31 - 1}
 """Whole numbers that every later step can hold."""
 
-
-def _containers(cls, place):
-    for key, kind, _ in declared(cls):
-        if kind.is_container:
-            yield (*place, key)
-        elif kind.name == "object":
-            for inner in kind.classes:
-                yield from _containers(inner, (*place, key))
-
-
-CONTAINERS = tuple(_containers(Case, ()))
+CONTAINERS = tuple(place for place, _ in containers(Case))
 """Places of the lists of objects that a case may also write as an object."""
 
 BOUNDS = {
@@ -53,21 +44,6 @@ def case_schema() -> dict:
         **root,
         "$defs": dict(sorted(definitions.items())),
     }
-
-
-def plain(value):
-    """Return a declared value, such as a default, as JSON: objects whole, tuples as lists."""
-    if isinstance(value, tuple):
-        return [plain(v) for v in value]
-    if not hasattr(value, "__dataclass_fields__"):
-        return value if isinstance(value, bool | int | float | str | dict | None) else str(value)
-    word = word_of(type(value))
-    result = {} if word is None else {"type": word}
-    for key, _, field in declared(type(value)):
-        item = getattr(value, field.name)
-        if item is not None:
-            result[key] = plain(item)
-    return list(result.values()) if isinstance(value, LISTED) else result
 
 
 def _object(cls, place, definitions):
@@ -164,7 +140,7 @@ def _reference(kind, place, definitions):
             definitions[name] = _object(kind.classes[0], place, definitions)
         else:
             definitions[name] = _choice(kind.classes, name, place, definitions)
-        if kind.classes[0] in LISTED:
+        if getattr(kind.classes[0], "may_be_list", False):
             _allow_list(definitions[name])
     return {"$ref": f"#/$defs/{name}"}
 

@@ -4,6 +4,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from mpmgeo.case.spec import ACTIONS
+
 CELLS_PER_WAVELENGTH = 10
 """Cells that a wave needs to travel without losing its shape."""
 
@@ -13,22 +15,16 @@ SIGNIFICANT = 0.99
 VALUES_PER_PERIOD = 4
 """Values of a record, and time steps, that a wave needs not to be lost between them."""
 
-BOXES_OF_THE_FLUID = ("initial_pressure_box", "prescribed_pressure_box", "pressure_force_box")
-
-REACH = 1.5
-"""Cells between a particle and the nodes that it still carries mass to."""
-
 
 def lint(simulation) -> list[str]:
     """Return warnings, one sentence each, about a simulation that has not started yet."""
     case = simulation.case
-    position = simulation.field("position")
+    position, body = simulation.field("position"), simulation.field("body")
     return [
         *_time_step(simulation),
         *_outside(position, case.mesh),
-        *_empty_bodies(case, simulation.field("body")),
-        *_idle_loads(case, position),
-        *_prescribed(case, position, simulation.field("body")),
+        *_empty_bodies(case, body),
+        *_actions(case, position, body),
         *_probes(case),
         *_record(case, simulation.time_step),
     ]
@@ -59,29 +55,17 @@ def _empty_bodies(case, body_of_particle) -> Iterator[str]:
             yield f"body {number} ({label}) holds no particle"
 
 
-def _idle_loads(case, position) -> Iterator[str]:
+def _actions(case, position, body) -> Iterator[str]:
     cell = np.array(case.mesh.cells_dimension)
-    for key in ("load_distributed_box", *(BOXES_OF_THE_FLUID if case.n_phases == 2 else ())):
-        for number, load in enumerate(getattr(case, key), start=1):
-            if not load.contains(position).any():
-                yield f"{key}, entry {number}: no particle in the box; nothing happens"
-    for number, load in enumerate(case.nodal_point_load, start=1):
-        distance = np.abs(position - load.position) / cell
-        if not (distance < REACH).all(axis=1).any():
-            yield (
-                f"nodal_point_load, entry {number}: no particle near {list(load.position)}; "
-                "the force has no effect until one comes"
-            )
-
-
-def _prescribed(case, position, body) -> Iterator[str]:
-    for entry in case.prescribed_velocity:
-        where = f"prescribed_velocity, {entry.name}"
-        if entry.plane is None and not entry.chooses(position, body).any():
-            yield f"{where}: no particle is meant; nothing happens"
-        end = entry.motion.time[-1]
-        if entry.file is not None and end < case.time:
-            yield f"{where}: the table ends at {end:g} s, the run at {case.time:g} s"
+    for action in ACTIONS:
+        for number, entry in enumerate(case.entries(action), start=1):
+            name = entry.name if action.called else f"entry {number}"
+            where = f"{action.key}, {name}" if action.is_several else action.key
+            reason, (what, end) = entry.idle(position, body, cell), entry.ends()
+            if reason is not None:
+                yield f"{where}: {reason}"
+            if end < case.time:
+                yield f"{where}: the {what} ends at {end:g} s, the run at {case.time:g} s"
 
 
 def _probes(case) -> Iterator[str]:
@@ -97,9 +81,7 @@ def _record(case, time_step) -> Iterator[str]:
     if case.earthquake is None or not case.earthquake.active:
         return
     record = case.earthquake.record()
-    end, frequency = record.time[-1], significant_frequency(record)
-    if end < case.time:
-        yield f"earthquake: the record ends at {end:g} s, the run at {case.time:g} s"
+    frequency = significant_frequency(record)
     if frequency == 0:
         return
     shakes, period = f"earthquake: the record shakes with up to {frequency:.3g} Hz", 1 / frequency

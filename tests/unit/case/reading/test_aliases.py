@@ -4,8 +4,8 @@ import copy
 
 import pytest
 
-from mpmgeo.case.aliases import ALIASES, OBSOLETE
 from mpmgeo.case.load import load_case
+from mpmgeo.case.reading.aliases import ALIASES, OBSOLETE
 from mpmgeo.case.report import shown_key
 
 RESULTS = {"material_point_results": ["stress", "velocity"]}

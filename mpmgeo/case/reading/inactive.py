@@ -1,18 +1,11 @@
 """What a case switches off, which is not read."""
 
-from mpmgeo.case.aliases import places
+from mpmgeo.case.reading.places import places
+from mpmgeo.case.spec import ACTIONS
 from mpmgeo.materials.saturation import KEYS
 
 FROM_OUTSIDE = ("particles", "particles_list", "particles_from_file", "gmsh")
 """Kinds of body whose particles or files may be missing while the body is inactive."""
-
-
-SWITCHES = {
-    "earthquake": "active",
-    "terrain_contact": "active",
-    "hydro_mechanical_coupling": "enabled",
-}
-"""Top-level keys of parts that a key of their own switches on."""
 
 
 OF_TWO_PHASES = {("mesh",): ("boundary_conditions_fluid",), ("materials", "*"): KEYS}
@@ -40,7 +33,7 @@ def drop_inactive(tree, report):
             for _, part in places(tree, place):
                 for key in keys:
                     part.pop(key, None)
-    for key, switch in SWITCHES.items():
+    for key, switch in ((cls.key, cls.switch) for cls in ACTIONS if cls.switch):
         part = tree.get(key)
         if isinstance(part, dict) and part.get(switch, False) is False:
             if part and switch not in part:

@@ -5,13 +5,11 @@ import math
 import os
 from pathlib import Path
 
-from mpmgeo.case.report import CaseError, nearest, printable, shown
+from mpmgeo.case.report import CaseError, nearest
+from mpmgeo.values import LARGEST, printable, shown
 
 DEEPEST = 64
 """Levels of nesting beyond which no case goes."""
-
-LARGEST = 1e100
-"""Number beyond which products of three overflow, and which no quantity in SI units reaches."""
 
 
 class Object(dict):

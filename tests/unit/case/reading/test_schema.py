@@ -7,16 +7,17 @@ import pytest
 from jsonschema import Draft202012Validator
 
 from mpmgeo.bodies import BODIES
-from mpmgeo.case.aliases import ALIASES
+from mpmgeo.case.canonical import plain
 from mpmgeo.case.kinds import declared
 from mpmgeo.case.load import load_case, resolved
-from mpmgeo.case.schema import CONTAINERS, case_schema, plain
+from mpmgeo.case.reading.aliases import ALIASES
+from mpmgeo.case.reading.schema import CONTAINERS, case_schema
 from mpmgeo.case.spec import Case
 from mpmgeo.case.tables import MARK, schema_text, tables
 from mpmgeo.damping import DAMPINGS
 from mpmgeo.materials import LAWS
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[4]
 
 
 def is_valid(case):

@@ -1,66 +1,14 @@
-"""What acts on particles of a case: prescribed velocities, pore pressures of a file, a terrain."""
+"""Contact with the terrain of a case."""
 
 import numpy as np
 
 from mpmgeo.boundaries.distance import Ground
-from mpmgeo.mpm.effects.tools import Tools
 from mpmgeo.mpm.terrain.contact import Contact, ContactAsMPMGeomechanics
+from mpmgeo.values import shown_point
 
 RIM = 0.01  # cells by which a point may be beyond the border of a terrain
 MARGIN = 4  # cells around the mesh in which distances are needed
 SAMPLE = 20_000  # particles that are looked at before the run, at least
-
-
-def bind_tools(case, population, velocity):
-    """Return the tools of a case, None without, and each particle's tool (n,), −1 without.
-
-    Particles of tools get their prescribed initial `velocity` (n, 3) [m/s]. Raises ValueError for
-    a body that does not exist.
-    """
-    tool = np.full(len(velocity), -1)
-    entries = case.prescribed_velocity
-    if not entries:
-        return None, tool
-    tools = Tools([entry.motion for entry in entries], [entry.side for entry in entries])
-    last = int(population.body.max(initial=0))
-    for number, entry in enumerate(entries):
-        if entry.body is not None and entry.body > last:
-            raise ValueError(
-                f"prescribed_velocity, {entry.name}: there is no body {entry.body}; "
-                f"bodies are numbered from 1 to {last}"
-            )
-        tool[entry.chooses(population.position, population.body) & (tool < 0)] = number
-        rows = np.flatnonzero(tool == number)
-        for axis in np.flatnonzero(tools.given[number]):
-            velocity[rows, axis] = tools.before[number, axis]
-    return tools, tool
-
-
-def bind_pressure(case, position, notes):
-    """Return the pore pressures (n,) [Pa] of particles at `position` (n, 3) [m], None without.
-
-    Points and particles that find no partner are counted in `notes`.
-    """
-    coupling = case.hydro_mechanical_coupling
-    if coupling is None or not coupling.enabled:
-        return None
-    cell = sum(case.mesh.cells_dimension) / 3
-    found = coupling.pressures(position, cell, last=case.compatibility is not None)
-    idle = np.flatnonzero(~found.matched)
-    if len(idle):
-        where = _shown(coupling.points.position[idle[0]])
-        notes.append(
-            f"hydro_mechanical_coupling: {len(idle)} of {len(found.matched)} points are near no "
-            f"particle, the first of them entry {idle[0] + 1} at {where}"
-        )
-    dry = np.flatnonzero(~found.known)
-    if len(dry):
-        notes.append(
-            f"hydro_mechanical_coupling: {len(dry)} of {len(position)} particles are near no point "
-            f"and keep the pore pressure 0, the first of them row {dry[0]} at "
-            f"{_shown(position[dry[0]])}"
-        )
-    return found.pressure
 
 
 def bind_terrain(case, mesh, width, population, notes):
@@ -77,8 +25,9 @@ def bind_terrain(case, mesh, width, population, notes):
     if not len(surface.corner):
         low, high = terrain.surface.corner.min(axis=(0, 1)), terrain.surface.corner.max(axis=(0, 1))
         raise ValueError(
-            f"{terrain.stl_mesh}: no triangle in the mesh, {_shown(case.mesh.origin)} to "
-            f"{_shown(case.mesh.upper)}; the surface reaches from {_shown(low)} to {_shown(high)}"
+            f"{terrain.stl_mesh}: no triangle in the mesh, {shown_point(case.mesh.origin)} to "
+            f"{shown_point(case.mesh.upper)}; the surface reaches from {shown_point(low)} to "
+            f"{shown_point(high)}"
         )
     cell = sum(case.mesh.cells_dimension) / 3
     symbols = terrain.symbols(cell)
@@ -120,13 +69,9 @@ def _look_below(terrain, contact, population, legacy, notes):
         return
     message = (
         f"{terrain.stl_mesh}: {len(below)} of {len(position)} particles begin below the surface, "
-        f"one at {_shown(position[below[0]])}; the outside of a triangle is where its corners run "
-        "anticlockwise"
+        f"one at {shown_point(position[below[0]])}; the outside of a triangle is where its corners "
+        "run anticlockwise"
     )
     if 2 * len(below) > len(position) and not legacy:
         raise ValueError(f"{message}: is the surface inside out?")
     notes.append(message)
-
-
-def _shown(position):
-    return f"({', '.join(f'{x:g}' for x in position)}) m"

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
+from mpmgeo.case.reading.text import parse, read, survey
 from mpmgeo.case.report import CaseError, Report
-from mpmgeo.case.text import parse, read, survey
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])

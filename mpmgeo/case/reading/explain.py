@@ -1,8 +1,9 @@
 """What the JSON Schema finds wrong in a case, in words that help to put it right."""
 
-from mpmgeo.case.aliases import FIELD_LISTS, OBSOLETE
-from mpmgeo.case.report import nearest, shown
-from mpmgeo.case.schema import CONTAINERS, INTEGERS, case_schema
+from mpmgeo.case.reading.aliases import FIELD_LISTS, OBSOLETE
+from mpmgeo.case.reading.schema import CONTAINERS, INTEGERS, case_schema
+from mpmgeo.case.report import nearest
+from mpmgeo.values import shown
 
 FIELD_ENTRIES = tuple((key, "*") for key in FIELD_LISTS)
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from assembly import assemble, by_row, nodes
 
-from mpmgeo.mpm.effects.point_loads import PointLoads
+from mpmgeo.loads.point import PointLoads
 from mpmgeo.shapes import SHAPES
 
 SCHEMES = pytest.mark.parametrize("scheme", ["USL", "MUSL", "USF"])

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from mpmgeo.case.lint import lint, significant_frequency
+from mpmgeo.case.building.lint import lint, significant_frequency
 from mpmgeo.case.load import load_case
 from mpmgeo.loads import Record
 

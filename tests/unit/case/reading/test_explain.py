@@ -2,8 +2,8 @@
 
 import pytest
 
-from mpmgeo.case.explain import accepted, place_of
 from mpmgeo.case.load import CaseError, load_case
+from mpmgeo.case.reading.explain import accepted, place_of
 
 
 def problems(case, **options):

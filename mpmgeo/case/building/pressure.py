@@ -1,0 +1,32 @@
+"""Pore pressures of a file at the particles."""
+
+import numpy as np
+
+from mpmgeo.values import shown_point
+
+
+def bind_pressure(case, position, notes):
+    """Return the pore pressures (n,) [Pa] of particles at `position` (n, 3) [m], None without.
+
+    Points and particles that find no partner are counted in `notes`.
+    """
+    coupling = case.hydro_mechanical_coupling
+    if coupling is None or not coupling.enabled:
+        return None
+    cell = sum(case.mesh.cells_dimension) / 3
+    found = coupling.pressures(position, cell, last=case.compatibility is not None)
+    idle = np.flatnonzero(~found.matched)
+    if len(idle):
+        where = shown_point(coupling.points.position[idle[0]])
+        notes.append(
+            f"hydro_mechanical_coupling: {len(idle)} of {len(found.matched)} points are near no "
+            f"particle, the first of them entry {idle[0] + 1} at {where}"
+        )
+    dry = np.flatnonzero(~found.known)
+    if len(dry):
+        notes.append(
+            f"hydro_mechanical_coupling: {len(dry)} of {len(position)} particles are near no point "
+            f"and keep the pore pressure 0, the first of them row {dry[0]} at "
+            f"{shown_point(position[dry[0]])}"
+        )
+    return found.pressure

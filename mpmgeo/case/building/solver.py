@@ -1,0 +1,76 @@
+"""The solver that runs a case, put together of its parts."""
+
+from mpmgeo.boundaries.planes import Planes
+from mpmgeo.case.building.fluid import pore_fluid, saturate
+from mpmgeo.case.building.motions import base, bind_tools
+from mpmgeo.case.building.population import populate
+from mpmgeo.case.building.sets import load_stress, particle_sets
+from mpmgeo.case.building.terrain import bind_terrain
+from mpmgeo.case.building.time_step import time_step
+from mpmgeo.loads import LOADS
+from mpmgeo.mpm.effects.reactions import Reactions
+from mpmgeo.mpm.schemes import SCHEMES
+from mpmgeo.mpm.solver import Solver
+from mpmgeo.shapes import SHAPES
+from mpmgeo.state.grid import Grid, Mesh
+
+TOUCH = 1e-12  # cells by which a particle must reach over a node; less is round-off
+
+
+def build(case):
+    """Return the solver of a case and notes for the user, one sentence each.
+
+    Raises ValueError for a record or geometry that cannot be used.
+    """
+    notes = []
+    population, velocity, law = populate(case, notes)
+    mesh = Mesh.of(case.mesh.origin, case.mesh.cells_dimension, case.mesh.cells_number)
+    shape = SHAPES[case.shape_function]
+    legacy = case.compatibility is not None
+    models = tuple(model for model in [case.damping.symbols] if model is not None)
+    early = legacy and case.stress_scheme_update != "USF" and models
+    tools, tool = bind_tools(case, population, velocity)
+    contact = bind_terrain(case, mesh, shape.width, population, notes)
+    sets = particle_sets(case, population, velocity, law, tool, contact is not None, notes)
+    if case.n_phases == 2:
+        saturate(case, sets, population, law)
+    if case.load_state:
+        load_stress(case, sets, len(population.position))
+    lightest = min((float(s.m.min()) for s in sets), default=0.0)
+    effects = (
+        base(case, notes),
+        tools,
+        pore_fluid(case),
+        *_of_loads(case, mesh),
+        contact,
+        _reactions(case),
+        case.damping.effect(),
+    )
+    solver = Solver(
+        grid=Grid(mesh, shape.width),
+        sets=sets,
+        population=population,
+        shape=shape,
+        scheme=SCHEMES[case.stress_scheme_update],
+        planes=Planes.of(case.mesh.boundary_conditions),
+        time_step=time_step(case, velocity),
+        gravity=case.gravity,
+        effects=tuple(effect for effect in effects if effect is not None),
+        damping=() if early else models,
+        early_damping=models[0] if early else None,
+        leaky=legacy,
+        cutoff=0.0 if legacy else TOUCH**shape.edge * lightest,
+    )
+    return solver, notes
+
+
+def _of_loads(case, mesh):
+    """Return what the loads of a case do during a step."""
+    return [load.effect(getattr(case, load.key), mesh) for load in LOADS if load.is_several]
+
+
+def _reactions(case):
+    """Return what measures the forces of planes and prescribed velocities, None if nobody asks."""
+    planes = [probe.every for probe in case.results.probes if probe.type == "planes"]
+    intervals = {*planes, *(entry.every for entry in case.prescribed_velocity)}
+    return Reactions(intervals, len(case.prescribed_velocity)) if intervals else None

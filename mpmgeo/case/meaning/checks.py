@@ -1,0 +1,86 @@
+"""What only the parts of a case together can show to be impossible, or unlikely to be meant."""
+
+from mpmgeo.boundaries.terrain import TerrainContact
+from mpmgeo.case.kinds import containers
+from mpmgeo.case.meaning.bodies import check_bodies, check_materials
+from mpmgeo.case.meaning.phases import check_phases, note_idle
+from mpmgeo.case.meaning.steps import check_steps
+from mpmgeo.case.spec import ACTIONS, Case
+from mpmgeo.loads import BaseAcceleration, PrescribedVelocity
+from mpmgeo.values import shown
+
+SLACK = 1e-9
+"""Share of a cell by which a position may lie outside the mesh through round-off."""
+
+
+def check(draft, report):
+    """Report contradictions between the parts of a draft."""
+    sound = check_bodies(draft, report)
+    check_materials(draft, sound, report)
+    _check_points(draft, report)
+    check_steps(draft, report)
+    _check_files(draft, report)
+    _check_names(draft, report)
+    _check_base(draft, report)
+    check_phases(draft, report)
+    note_idle(draft, report)
+
+
+def _actions(draft):
+    """Yield all actions that could be made, as parts."""
+    for action in ACTIONS:
+        yield from (part for part in draft.of(action.key) if part.made is not None)
+
+
+def _check_points(draft, report):
+    """Report points of actions that lie outside the mesh."""
+    for mesh in draft.made("mesh"):
+        for part in _actions(draft):
+            for key in part.made.in_mesh:
+                point = part.values[key]
+                if not _is_inside(point, mesh):
+                    box = f"{list(mesh.origin)} to {list(mesh.upper)}"
+                    report.error(part.at(key), f"{list(point)} is outside the mesh, {box}")
+
+
+def _is_inside(position, mesh):
+    axes = zip(position, mesh.origin, mesh.upper, mesh.cells_dimension, strict=True)
+    return all(low - SLACK * h <= x <= high + SLACK * h for x, low, high, h in axes)
+
+
+def _check_files(draft, report):
+    """Report files of actions that cannot be used, and what is odd in the others."""
+    for part in _actions(draft):
+        complaints = list(part.made.complaints())
+        for key, message in complaints:
+            report.error(part.at(key), message)
+        for message in () if complaints else part.made.remarks_on_file():
+            report.warn((), message)
+
+
+def _check_names(draft, report):
+    """Report entries whose names are those of the same file."""
+    for place, classes in containers(Case):
+        taken = {}
+        for part in draft.of(*place) if hasattr(classes[0], "called") else ():
+            name = part.values.get("name", "").casefold()
+            if name in taken:
+                first = report.where(taken[name])
+                report.error(part.at("name"), f"{shown(part.values['name'])} is taken by {first}")
+            elif name:
+                taken[name] = part.path
+
+
+def _check_base(draft, report):
+    """Report planes that are to have two velocities."""
+    taken = {}
+    for base in draft.of(BaseAcceleration.key):
+        if base.made and base.made.active and not draft.made(TerrainContact.key):
+            taken["Z0"] = base.path
+    for part in draft.of(PrescribedVelocity.key):
+        plane = part.made and part.made.plane
+        if plane in taken:
+            first = report.where(taken[plane])
+            report.error(part.at("plane"), f"{plane} is moved by {first}")
+        elif plane:
+            taken[plane] = part.path
