@@ -19,13 +19,15 @@ def parameter(
     choices=None,
     file=False,
     key=None,
+    several=False,
 ):
     """Return the dataclass field of one JSON key.
 
     `doc` is one sentence; `unit` is SI ("" for none); `above`/`below` are open bounds, `minimum`/
     `maximum` closed ones, and bound every component of a vector; `choices` lists the accepted
     words; `file` marks the name of a file, resolved against the case's folder; `key` is the
-    JSON key where it is not the name of the field. Without a `default` the key is required.
+    JSON key where it is not the name of the field; `several`: a list of objects is accepted in the
+    place of one. Without a `default` the key is required.
     """
     bounds = {"above": above, "minimum": minimum, "below": below, "maximum": maximum}
     metadata = {
@@ -35,5 +37,6 @@ def parameter(
         "choices": choices,
         "file": file,
         "key": key,
+        "several": several,
     }
     return field(default=default, metadata=metadata, kw_only=True)

@@ -224,7 +224,17 @@ class Settings:
     mesh: Mesh = parameter("The grid")
     materials: tuple[Law, ...] = parameter("The materials")
     body: tuple[Body, ...] = parameter("The bodies")
-    damping: Damping = parameter("Damping of the motion", default=NoDamping())
+    damping: Damping = parameter(
+        "Damping of the motion, of one kind, or a list of several",
+        default=NoDamping(),
+        several=True,
+    )
+
+    @property
+    def dampings(self) -> tuple[Damping, ...]:
+        """Return all kinds of damping, in the order in which they act."""
+        several = self.damping if isinstance(self.damping, tuple) else (self.damping,)
+        return tuple(sorted(several, key=lambda damping: damping.order))
 
 
 def _field_of(action):

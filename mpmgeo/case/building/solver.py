@@ -7,6 +7,7 @@ from mpmgeo.case.building.population import populate
 from mpmgeo.case.building.sets import load_stress, particle_sets
 from mpmgeo.case.building.terrain import bind_terrain
 from mpmgeo.case.building.time_step import time_step
+from mpmgeo.damping import LocalDamping
 from mpmgeo.loads import LOADS
 from mpmgeo.mpm.effects.reactions import Reactions
 from mpmgeo.mpm.schemes import SCHEMES
@@ -27,8 +28,7 @@ def build(case):
     mesh = Mesh.of(case.mesh.origin, case.mesh.cells_dimension, case.mesh.cells_number)
     shape = SHAPES[case.shape_function]
     legacy = case.compatibility is not None
-    models = tuple(model for model in [case.damping.symbols] if model is not None)
-    early = legacy and case.stress_scheme_update != "USF" and models
+    damping, early = _damping(case)
     tools, tool = bind_tools(case, population, velocity)
     contact = bind_terrain(case, mesh, shape.width, population, notes)
     sets = particle_sets(case, population, velocity, law, tool, contact is not None, notes)
@@ -44,7 +44,7 @@ def build(case):
         *_of_loads(case, mesh),
         contact,
         _reactions(case),
-        case.damping.effect(),
+        *(kind.effect() for kind in case.dampings),
     )
     solver = Solver(
         grid=Grid(mesh, shape.width),
@@ -56,12 +56,21 @@ def build(case):
         time_step=time_step(case, velocity),
         gravity=case.gravity,
         effects=tuple(effect for effect in effects if effect is not None),
-        damping=() if early else models,
-        early_damping=models[0] if early else None,
+        damping=damping,
+        early_damping=early,
         leaky=legacy,
         cutoff=0.0 if legacy else TOUCH**shape.edge * lightest,
     )
     return solver, notes
+
+
+def _damping(case):
+    """Return the models of damping at the nodes, and the one that acts as in MPM-Geomechanics."""
+    models = tuple(kind.symbols for kind in case.dampings if kind.symbols is not None)
+    if case.compatibility is None or case.stress_scheme_update == "USF":
+        return models, None
+    early = next((kind.symbols for kind in case.dampings if kind.type == LocalDamping.type), None)
+    return tuple(model for model in models if model is not early), early
 
 
 def _of_loads(case, mesh):

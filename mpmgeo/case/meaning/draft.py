@@ -87,6 +87,8 @@ class _Maker:
     def value(self, kind, metadata, value, path):
         """Return the value of a kind at a path, or BROKEN."""
         is_wrong = path in self.report.errors
+        if kind.name == "object" and metadata.get("several") and isinstance(value, list):
+            kind = Kind("list", kind)
         if kind.name == "object" and (isinstance(value, dict) or not is_wrong):
             return self._object(kind.classes, value, path)
         if is_wrong:

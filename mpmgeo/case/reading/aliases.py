@@ -11,7 +11,8 @@ class Alias(NamedTuple):
     """An old spelling of a key at a place, as `places` has it.
 
     `remark` ends the note about it; `is_equal`: both spellings are current, so nothing is noted;
-    `wins`: the old spelling counts where both are given, as in MPM-Geomechanics.
+    `wins`: the old spelling counts where both are given, as in MPM-Geomechanics; `unless`: objects
+    of these types have a key of the old spelling.
     """
 
     place: tuple[str, ...]
@@ -20,6 +21,7 @@ class Alias(NamedTuple):
     remark: str = ""
     is_equal: bool = False
     wins: bool = False
+    unless: tuple[str, ...] = ()
 
 
 UNREAD = ", which MPM-Geomechanics does not read under this spelling"
@@ -31,7 +33,8 @@ ALIASES = (
     Alias(("results",), "fields", "material_point_results", UNREAD),
     Alias(("results",), "material-point-results", "material_point_results", UNREAD),
     Alias(("results",), "grid-nodal-results", "grid_nodal_results", UNREAD),
-    Alias(("damping",), "alpha", "value"),
+    Alias(("damping",), "alpha", "value", unless=("mass",)),
+    Alias(("damping", "*"), "alpha", "value", unless=("mass",)),
 )
 
 OBSOLETE = {
@@ -60,7 +63,7 @@ def rename(tree, report):
     """Replace old spellings in a case's tree by the canonical ones, noting each."""
     for alias in ALIASES:
         for path, node in places(tree, alias.place):
-            if alias.old in node:
+            if alias.old in node and node.get("type") not in alias.unless:
                 _rename_one(alias, path, node, report)
     _flatten_field_lists(tree, report)
     _drop_automatic(tree)

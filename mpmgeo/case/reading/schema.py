@@ -81,7 +81,7 @@ def _required(keys, place):
 def _old_spellings(place, properties):
     result = {}
     for alias in ALIASES:
-        if alias.place == place and alias.new in properties:
+        if alias.place == place and alias.new in properties and alias.old not in properties:
             text = f'Other spelling of "{alias.new}"'
             old = {"description": text} | ({} if alias.is_equal else {"deprecated": True})
             result[alias.old] = properties[alias.new] | old
@@ -101,7 +101,8 @@ def _property(key, kind, item, place, definitions):
 
 def _value(kind, metadata, place, definitions):
     if kind.name == "object":
-        return _reference(kind, place, definitions)
+        one = _reference(kind, place, definitions)
+        return _or_list(one) if metadata.get("several") else one
     if kind.is_container:
         entry = _value(kind.item, metadata, (*place, "*"), definitions)
         return {"type": ["array", "object"], "items": entry, "additionalProperties": entry}
@@ -116,6 +117,12 @@ def _value(kind, metadata, place, definitions):
         entry = _value(kind.item, metadata, place, definitions)
         return {"type": "object", "additionalProperties": entry}
     return _scalar(kind, metadata)
+
+
+def _or_list(one):
+    """Return the schema of an object, or a list of such objects, from that of an object."""
+    choice = {"if": {"type": "array"}, "then": {"items": one}, "else": one}
+    return {"type": ["object", "array"], **choice}
 
 
 def _scalar(kind, metadata):
