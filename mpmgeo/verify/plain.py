@@ -138,11 +138,12 @@ def held(free, n, a):
 
 
 @compiled
-def gather(shape, box, law, rotation, rows, half, x, v, V, stress, state, A, drift, U, dt, h):
+def gather(shape, box, law, rotation, rows, half, x, v, material, A, drift, U, dt, h):
     """Change v by the nodal A, move x with `drift`, strain with U; what is None is left out.
 
-    `law` None: no strain.
+    `law` None: no strain; `material`: volumes, stresses, variables of the law.
     """
+    V, stress, state = material
     S = width(shape)
     for p in rows:
         I, wx = stencil_along(0, shape, box, half, x, p)
@@ -294,6 +295,6 @@ class PlainSolver:
         for (law, rotation, rows), state in zip(self.sets, self.state, strict=True):
             gather(
                 *(self.shape, self.box, law if strains else None, rotation, rows, self.half),
-                *(self.x, self.v, self.V, self.stress, state, A, drift, self.U),
+                *(self.x, self.v, (self.V, self.stress, state), A, drift, self.U),
                 *(self.time_step, h),
             )
