@@ -9,14 +9,15 @@ import time
 from pathlib import Path
 from statistics import median
 
-import numba
 import numpy as np
 from contest import Contest, Table
 from scenes import CELL, SOLID, TIME_STEP, simulation
 
 from mpmgeo.boundaries.distance import Ground, fill
 from mpmgeo.boundaries.surface import surface_of
-from mpmgeo.state.grid import NODES, Mesh
+from mpmgeo.numerics.chunks import crew_of
+from mpmgeo.state.grid import Mesh
+from mpmgeo.state.layout import NODES
 
 HEIGHT = 5  # cells: ten layers of particles, of which one touches
 MARGIN = 4  # cells around the slab
@@ -109,14 +110,13 @@ def time_distances(table, triangles, nodes, rounds):
     table.add("triangles", "", len(corner))
     table.add("nodes near the surface", "", out.size)
     for threads in (2, 1):
-        numba.set_num_threads(threads)
-        parts = []
+        crew, parts = crew_of(threads), []
         for _ in range(rounds):
             begin = time.perf_counter()
             surface = surface_of(corner, np.zeros((len(corner), 3)))
             joined = time.perf_counter()
             ground = Ground.of(surface, mesh[:3], 3 * (10.0,), 0.01 * mesh.hx)
-            fill(ground, mesh, 1.0, blocks, out)
+            fill(crew, ground, mesh, 1.0, blocks, out)
             end = time.perf_counter()
             parts.append((joined - begin, end - joined))
         joining, distances = (np.array(seconds) for seconds in zip(*parts, strict=True))

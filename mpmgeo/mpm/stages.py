@@ -7,7 +7,7 @@ import numba
 
 from mpmgeo.mpm.core.loops import over_nodes, over_particles
 from mpmgeo.mpm.core.transfer import Gather, Remap, Scatter, StrainAndForce
-from mpmgeo.numerics.chunks import ALONE, Crew
+from mpmgeo.numerics.chunks import ALONE, crew_of
 
 
 class Loops:
@@ -16,26 +16,35 @@ class Loops:
     @property
     def crew(self):
         """Return who runs the loops: threads, if it pays; their number never changes results."""
-        return ALONE if self.small else Crew.of(numba.get_num_threads())
+        return ALONE if self.small else crew_of(numba.get_num_threads())
 
     def over_particles(self, work, s, arrays, tiles=None, nodes=None, fresh=False):
         """Visit the particles of set `s` with a work that fills `tiles` and reads `nodes`."""
-        grid, start = self.grid, s.start
-        place = (s.chunk, start[:-1], start[1:], grid.corner)
+        grid = self.grid
+        place = (s.chunk, s.begin, s.end, grid.corner)
         read = None if nodes is None else (nodes, grid.above)
+        fill, scratch, crew = tiles or (grid.tiles,), grid.scratch, self.crew
         return over_particles(
-            *(self.crew, work, self.shape, grid.mesh, place, s.half, s.x),
-            *(read, grid.scratch, tiles or (grid.tiles,), fresh, arrays),
+            crew,
+            work,
+            self.shape,
+            grid.mesh,
+            place,
+            s.half,
+            s.x,
+            read,
+            scratch,
+            fill,
+            fresh,
+            arrays,
         )
 
     def over_nodes(self, task):
         """Visit all nodes."""
         grid = self.grid
+        work, tiles, scratch, arrays = task
         place = (grid.chunk, grid.active_corner, grid.below)
-        over_nodes(
-            *(self.crew, task.work, self.shape, grid.mesh, place),
-            *(task.tiles, task.scratch, task.arrays),
-        )
+        over_nodes(self.crew, work, self.shape, grid.mesh, place, tiles, scratch, arrays)
 
 
 class Stages(Loops):
@@ -43,11 +52,13 @@ class Stages(Loops):
 
     def scatter(self, internal=True):
         """Fill the tiles with mass, momentum and external force, and the internal one if asked."""
-        for number, s in enumerate(self.sets):
+        fresh = True
+        for s in self.sets:
             work = Scatter(self.gravity, 0.0 if s.tool is None else 1.0)
-            stress = (s.stress, s.pressure) if internal else (None, None)
-            arrays = (s.v, s.m, s.V, *stress, s.force)
-            self.over_particles(work, s, arrays, (self.grid.tiles,), fresh=number == 0)
+            stress, pressure = (s.stress, s.pressure) if internal else (None, None)
+            arrays = (s.v, s.m, s.V, stress, pressure, s.force)
+            self.over_particles(work, s, arrays, None, None, fresh)
+            fresh = False
         self.clock.lap("scatter")
 
     def update_momentum(self, h):
@@ -73,7 +84,7 @@ class Stages(Loops):
         for s in self.sets:
             work = Gather(s.law if stress else None, s.rotation, self.time_step, step)
             arrays = (None if h is None else s.v, s.V, s.stress, s.state, s.strain)
-            self.gone += self.over_particles(work, s, arrays, nodes=nodes)
+            self.gone += self.over_particles(work, s, arrays, None, nodes)
         self.clock.lap("gather")
         for effect in self.effects:
             self.gone += effect.after_gather(self)

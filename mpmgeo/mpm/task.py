@@ -20,12 +20,16 @@ class OnePhase:
     def momentum(self, solver, h):
         """Return the task that integrates the momentum over h."""
         grid, (driven, arrays) = solver.grid, solver.driven
-        early, damping = solver.early_damping, solver.damping
-        work = Momentum(solver.planes, solver.motion, early, damping, driven, h, solver.cutoff)
+        start, _, pull, drives = solver.motion
+        early, damping, cutoff = solver.early_damping, solver.damping, solver.cutoff
+        planes = solver.planes
+        work = Momentum(planes, start, pull, drives, early, damping, driven, h, cutoff)
         return Task(work, (grid.tiles,), grid.scratch, (grid.nodes, arrays))
 
     def velocity(self, solver, after):
         """Return the task that makes velocities of momenta, `after` the step or before it."""
         grid, (driven, arrays) = solver.grid, solver.driven
-        work = Velocity(solver.planes, solver.motion, driven, after)
+        before, behind, _, drives = solver.motion
+        motion = behind if after else before
+        work = Velocity(solver.planes, motion, drives, driven, after)
         return Task(work, (grid.tiles,), grid.scratch, (grid.nodes, arrays))

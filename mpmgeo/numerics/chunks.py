@@ -14,7 +14,6 @@ Arguments may be tuples of anything, in any depth. A chunk may not raise and sho
 """
 
 import inspect
-from typing import NamedTuple
 
 import numba
 from llvmlite import binding, ir
@@ -31,26 +30,22 @@ _BYTES = ir.IntType(8).as_pointer()
 _ENDED = ir.VoidType()
 
 
-class Crew(NamedTuple):
-    """Who runs a loop: so many threads, started by numba's function at an address; 0 for none."""
-
-    start: int
-    count: int
-
-    @classmethod
-    def of(cls, count):
-        """Return a crew of `count` threads of numba's."""
-        if count == 1:
-            return ALONE
-        from numba.np.ufunc.parallel import _launch_threads
-
-        _launch_threads()
-        start = binding.address_of_symbol("numba_parallel_for")
-        return cls(start, count) if start else ALONE
+ALONE = (0, 1)
+"""Crew of the calling thread alone."""
 
 
-ALONE = Crew(0, 1)
-"""The calling thread."""
+def crew_of(count):
+    """Return a crew of `count` of numba's threads: the address of what starts them, and how many.
+
+    A plain tuple, because a kernel is called with it.
+    """
+    if count == 1:
+        return ALONE
+    from numba.np.ufunc.parallel import _launch_threads
+
+    _launch_threads()
+    start = binding.address_of_symbol("numba_parallel_for")
+    return (start, count) if start else ALONE
 
 
 def blockwise(function):

@@ -19,7 +19,7 @@ from mpmgeo.state.layout import SIDE, blocks_along, volume
 
 SOLID = Lanes(
     tile={"mass": (0, 1), "momentum": (1, 3), "force": (4, 3), "mass of tools": (7, 1)},
-    node={"velocity": (0, 3), "acceleration": (3, 3), "mass": (6, 1)},
+    node={"velocity": (0, 3), "acceleration": (3, 3), "mass": (6, 1), "part that touches": (7, 1)},
 )
 
 KEY_BITS = 21

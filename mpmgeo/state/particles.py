@@ -61,8 +61,15 @@ class ParticleSet:
     chunk: np.ndarray = field(init=False)  # bounds of the chunks of blocks
 
     def __post_init__(self):
+        self.begin = self.end = None  # first particle of each block, and the one after its last
         self.start = np.array([0, len(self.row)])  # one heap, until the first sort
         self.chunk = cut(self.start)
+
+    def __setattr__(self, name, value):
+        """Set an attribute; bounds of the blocks' particles follow from `start`."""
+        super().__setattr__(name, value)
+        if name == "start":
+            self.begin, self.end = value[:-1], value[1:]
 
     def arrays(self):
         """Return the arrays that are permuted together, by name."""

@@ -23,7 +23,9 @@ class Momentum(NamedTuple):
     """
 
     planes: object
-    motion: object  # of a plane that moves
+    start: tuple  # velocity before the step of a plane that moves,
+    pull: tuple  # its acceleration,
+    drives: bool  # and whether its nodes take the velocity
     early: object  # damping with the last velocity, that counts wall reactions, or None
     damping: tuple  # models of damping
     driven: object  # model of nodes whose velocity is prescribed, None without
@@ -52,7 +54,7 @@ def integrated(work, node, driven, r, u):
     `work.driven`. One flat tuple of nine.
     """
     planes, mesh, h = work.planes, node.mesh, work.h
-    start, pull, drives = work.motion.before, work.motion.acceleration, work.motion.drives
+    start, pull, drives = work.start, work.pull, work.drives
     i, j, k = node.i, node.j, node.k
     m = lane(r, 0)
     w = 1.0 / m
@@ -94,16 +96,10 @@ class Velocity(NamedTuple):
     """
 
     planes: object
-    motion: object  # of a plane that moves
+    motion: tuple  # velocity of a plane that moves
+    drives: bool  # whether its nodes take it
     driven: object
-    after: bool  # whether what moves has its velocity after the step, or that before it
-
-
-@inlined
-def velocity_of(motion, after):
-    """Return the velocity of a plane that moves, after the step or before it."""
-    a, b = motion.after, motion.before
-    return (a[0] if after else b[0], a[1] if after else b[1], a[2] if after else b[2])
+    after: bool  # whether prescribed velocities are those after the step, or before it
 
 
 @at_node.register(Velocity)
@@ -118,8 +114,7 @@ def velocity(work, node, a):
     w = 1.0 / m
     vx, vy, vz = lane(r, 1) * w, lane(r, 2) * w, lane(r, 3) * w
     if node.bounded:
-        i, j, k, drives = node.i, node.j, node.k, work.motion.drives
-        V = velocity_of(work.motion, work.after)
+        i, j, k, V, drives = node.i, node.j, node.k, work.motion, work.drives
         vx, vy, vz = constrain(work.planes, node.mesh, i, j, k, vx, vy, vz, V, drives)
     vx = prescribe(work.driven, driven, node.number, 0, work.after, vx)
     vy = prescribe(work.driven, driven, node.number, 1, work.after, vy)

@@ -1,6 +1,7 @@
 """Transfers between particles and nodes: scatter (P2G), gather (G2P) and both in one pass.
 
-Record of a tile: m, m v (3), f (3), m of tools. Record of a node: v (3), a (3), m, spare.
+Record of a tile: m, m v (3), f (3), m of tools. Record of a node: v (3), a (3), m, and the
+part of m that touches the ground.
 """
 
 from typing import NamedTuple

@@ -55,18 +55,18 @@ class PoreFluid(Effect):
 
     def momentum(self, solver, h):
         """Return the task that integrates the momenta of both phases over h."""
-        driven, arrays = solver.driven
+        motion, (driven, arrays) = solver.motion, solver.driven
         work = Momenta(
-            *(solver.planes, self.walls, solver.motion, solver.damping, solver.gravity),
-            *(driven, h, solver.cutoff),
+            *(solver.planes, self.walls, motion.before, motion.acceleration, motion.drives),
+            *(solver.damping, solver.gravity, driven, h, solver.cutoff),
         )
         tiles = (solver.grid.tiles, self.flow.tiles, self.pores.tiles)
         return Task(work, tiles, self.scratch, (solver.grid.nodes, self.flow.nodes, arrays))
 
     def velocity(self, solver, after):
         """Return the task that makes velocities of both momenta after the step."""
-        driven, arrays = solver.driven
-        work = Velocities(solver.planes, self.walls, solver.motion, driven)
+        motion, (driven, arrays) = solver.motion, solver.driven
+        work = Velocities(solver.planes, self.walls, motion.after, motion.drives, driven)
         tiles = (solver.grid.tiles, self.flow.tiles)
         return Task(work, tiles, self.scratch, (solver.grid.nodes, self.flow.nodes, arrays))
 

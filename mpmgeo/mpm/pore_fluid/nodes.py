@@ -32,7 +32,9 @@ class Momenta(NamedTuple):
 
     planes: object
     walls: object
-    motion: object
+    start: tuple
+    pull: tuple
+    drives: bool
     damping: tuple  # of each phase by itself
     gravity: tuple
     driven: object
@@ -90,7 +92,7 @@ def both_phases(work, node, driven, r, u, d):
     forces those of planes and prescribed velocities. One flat tuple of eighteen.
     """
     planes, walls, mesh, h = work.planes, work.walls, node.mesh, work.h
-    base, pull, drives = work.motion.before, work.motion.acceleration, work.motion.drives
+    base, pull, drives = work.start, work.pull, work.drives
     gravity = work.gravity
     i, j, k, at, model = node.i, node.j, node.k, node.number, work.driven
     m, mf, n = lane(r, 0), lane(u, 0), lane(d, 0) / lane(u, 7)
@@ -191,7 +193,8 @@ class Velocities(NamedTuple):
 
     planes: object
     walls: object
-    motion: object
+    motion: tuple
+    drives: bool
     driven: object
 
 
@@ -219,7 +222,7 @@ def velocities(work, node, a):
     ux, uy, uz = lane(u, 1) * wf, lane(u, 2) * wf, lane(u, 3) * wf
     i, j, k = node.i, node.j, node.k
     fx = fy = fz = 1.0
-    V, drives = work.motion.after, work.motion.drives
+    V, drives = work.motion, work.drives
     if node.bounded:
         vx, vy, vz = constrain(work.planes, mesh, i, j, k, vx, vy, vz, V, drives)
         ux, uy, uz = constrain(work.walls, mesh, i, j, k, ux, uy, uz, V, drives)

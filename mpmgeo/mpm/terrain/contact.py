@@ -59,20 +59,20 @@ class Contact(Effect):
         nodes = grid.nodes, near.above
         for number, s in enumerate(self.sets):
             arrays = (near.level, s.m, s.due, s.contact, near.touched)
-            self._over_particles(solver, work, number, arrays, nodes, fill=True)
+            self._over_particles(solver, work, number, arrays, nodes)
         self.way += step
         return near.touched.any()
 
     def _press(self, solver, h):
         """Give the nodes the impulses of what touches."""
         near, grid = self.near, solver.grid
-        around = (grid.nodes, near.active, near.place_of_nodes[2], near.touched)
-        self._over_nodes(solver, Part(), (*around, near.field.nodes), is_sum=True)
-        nodes = near.field.nodes, near.around
+        around = (grid.nodes, near.active, near.gather_touched())
+        self._over_nodes(solver, Part(), around, is_sum=True)
+        nodes = grid.nodes, near.above
         work = Press(self.symbols, h, 1.0 / solver.time_step)
         for number, s in enumerate(self.sets):
             arrays = (s.m, s.due, s.contact, near.touched)
-            self._over_particles(solver, work, number, arrays, nodes, fill=True)
+            self._over_particles(solver, work, number, arrays, nodes)
         driven, of_driven = solver.driven
         work = Push(solver.planes, driven, h)
         self._over_nodes(solver, work, (*around, of_driven), is_sum=True)
@@ -88,19 +88,21 @@ class Contact(Effect):
         solver.clock.lap("contact")
         return gone
 
-    def _over_particles(self, solver, work, number, arrays, nodes=None, fill=False):
+    def _over_particles(self, solver, work, number, arrays, nodes=None):
         """Visit the particles of a set in the blocks near the ground."""
-        s, fresh = self.sets[number], fill and number == 0
+        s = self.sets[number]
         return over_particles(
             *(solver.crew, work, solver.shape, solver.grid.mesh, self.places[number]),
-            *(s.half, s.x, nodes, solver.grid.scratch, (self.near.field.tiles,), fresh, arrays),
+            *(s.half, s.x, nodes, solver.grid.scratch, (self.near.field.tiles,), False, arrays),
         )
 
     def _over_nodes(self, solver, work, arrays, is_sum=False):
-        """Visit the nodes near the ground, the tiles summed before if asked."""
-        tiles = (self.near.field.tiles,) if is_sum else None
+        """Visit the nodes near the ground, the tiles that are touched summed before if asked."""
+        near = self.near
+        tiles = (near.field.tiles,) if is_sum else None
+        place = near.nodes_chunk, near.nodes_corner, near.below
         over_nodes(
-            *(solver.crew, work, solver.shape, solver.grid.mesh, self.near.place_of_nodes),
+            *(solver.crew, work, solver.shape, solver.grid.mesh, place),
             *(tiles, solver.grid.scratch, arrays),
         )
 

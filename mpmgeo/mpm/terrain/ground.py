@@ -20,8 +20,8 @@ from mpmgeo.state.grid import corners_of, cut, keys_of
 from mpmgeo.state.layout import NODES, SIDE, blocks_along, node_under, place, volume
 
 CONTACT = Lanes(
-    tile={"mass or impulse": (0, 3)},  # what touches; then the impulses on it
-    node={"part": (0, 1)},  # of the mass, that touches
+    tile={"mass": (0, 1), "impulse": (1, 3)},  # of what touches, on what touches
+    node={},
 )
 
 
@@ -83,8 +83,8 @@ class NearGround:
     """Which blocks of a grid are near the ground, and the distances under them.
 
     near (k,): owner blocks; chunk: bounds of their chunks; level: their tiles of distances; active
-    (a,): blocks of nodes under their tiles; around (k, ·): as the grid's above, but with places in
-    `active`; touched (k,): whether anything touches in a block; field: that of contact.
+    (a,): blocks of nodes under their tiles; below (a, ·): tiles over each of these; touched (k,):
+    whether anything touches in a block; field: that of contact.
     """
 
     def __init__(self, ground, mesh, width, reach):
@@ -92,7 +92,7 @@ class NearGround:
         cell = np.array([mesh.hx, mesh.hy, mesh.hz])
         self.cell = cell
         self.band = reach + 0.5 * width * float(np.linalg.norm(cell))
-        self.field = Field(CONTACT)
+        self.field = Field(CONTACT, has_nodes=False)
         self.shift = (0, 0, 0)
         self._owners = None  # keys of the grid's owner blocks for which this was arranged
         self._keys = np.empty(0, np.int64)  # blocks whose distances are known, ascending
@@ -132,13 +132,19 @@ class NearGround:
         self.active = np.unique(grid.above[self.near])
         self.corner = grid.corner[self.near]
         self.above = grid.above[self.near]
-        nodes_chunk, corner = cut(np.arange(len(self.active) + 1)), grid.active_corner[self.active]
-        self.around = np.searchsorted(self.active, grid.above[self.near])
+        self.nodes_chunk = cut(np.arange(len(self.active) + 1))
+        self.nodes_corner = grid.active_corner[self.active]
         number = np.full(len(grid.keys) + 1, -1)
         number[self.near] = np.arange(len(self.near))
-        self.place_of_nodes = nodes_chunk, corner, number[grid.below[self.active]]
+        self.below = self._below = number[grid.below[self.active]]
         self.touched = np.zeros(len(self.near), np.int64)
         self.field.fit(len(self.near), volume(grid.rows), len(self.active))
+
+    def gather_touched(self):
+        """Let `below` show the tiles of blocks in which anything touches alone; return it."""
+        touched = np.append(self.touched, 0)
+        self.below = np.where(touched[self._below], self._below, -1)
+        return self.below
 
     def place(self, s):
         """Return where a set's particles of the blocks near the ground are, for loops."""

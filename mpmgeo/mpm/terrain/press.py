@@ -16,12 +16,13 @@ from mpmgeo.numerics.simd import (
     load_row,
     pack,
     pack4,
-    splat,
     store,
     store_row,
     within,
 )
 from mpmgeo.state.layout import NODES
+
+PART = 7  # lane of a node's record that nothing else uses
 
 
 @inlined
@@ -52,33 +53,34 @@ def fastest(work, node, a):
 
 
 @inlined
-def nothing_touches(below, touched, b):
-    """Tell whether no tile over block b has particles that touch."""
+def nothing_touches(below, b):
+    """Tell whether there is no tile over block b."""
     count = 0
     for o in range(below.shape[1]):
-        count += below[b, o] >= 0 and touched[below[b, o]] != 0
+        count += below[b, o] >= 0
     return count == 0
 
 
 class Part(NamedTuple):
-    """Write which part of the nodes' mass touches.
+    """Write which part of the nodes' mass touches into the spare lane of their records.
 
-    Arrays: nodes of the grid, blocks of them near the ground, tiles over these, touched, nodes of
-    contact.
+    Arrays: nodes of the grid, blocks of them near the ground, the tiles of blocks that are touched
+    over these.
     """
 
 
 @is_needless.register(Part)
 def no_part(work, a, b, bounded):
-    return nothing_touches(a[2], a[3], b)
+    return nothing_touches(a[2], b)
 
 
 @at_node.register(Part)
 def part(work, node, a):
-    nodes, active, _, _, out = a
+    nodes, active, _ = a
     m = lane(load(node.sums, node.at), 0)
-    r = m / nodes[record_of(active, node.number) + 6] if m > 0.0 else 0.0
-    store(out, node.number * LANES, splat(r))
+    if m > 0.0:
+        at = record_of(active, node.number)
+        nodes[at + PART] = m / nodes[at + 6]
 
 
 class Press(NamedTuple):
@@ -104,7 +106,7 @@ def press(work, here, a, p):
         return 0
     contact, w = work.contact, 1.0 / work.h
     at, wx, wy, wz = locate(here, p)
-    r = lane(collect_value(here.source, at, here.rows, wx, wy, wz), 0)
+    r = lane(collect_value(here.source, at, here.rows, wx, wy, wz), PART)
     q = m[p] / r if r > 0.0 else 0.0
     # the spring may not throw a particle out faster than to the surface in a step
     k = min(contact.k * work.h, m[p] * work.rate)
@@ -117,7 +119,7 @@ def press(work, here, a, p):
     q = -q * (most / t) ** 0.5 if t > most else -q
     put(forces, p, NORMAL, w, jx, jy, jz)
     put(forces, p, TANGENT, w * q, tx, ty, tz)
-    J = pack(jx + q * tx, jy + q * ty, jz + q * tz, 0.0, 0.0, 0.0, 0.0, 0.0)
+    J = pack(0.0, jx + q * tx, jy + q * ty, jz + q * tz, 0.0, 0.0, 0.0, 0.0)
     deposit_value(here.tiles[0], here.n0 + at, here.rows, wx, wy, wz, J)
     return 0
 
@@ -125,7 +127,7 @@ def press(work, here, a, p):
 class Push(NamedTuple):
     """Change velocity and acceleration of the nodes by the impulses, as planes and tools allow.
 
-    Arrays: the first four of `Part`, those of `driven`.
+    Arrays: those of `Part`, those of `driven`.
     """
 
     planes: object
@@ -135,14 +137,14 @@ class Push(NamedTuple):
 
 @is_needless.register(Push)
 def no_push(work, a, b, bounded):
-    return nothing_touches(a[2], a[3], b)
+    return nothing_touches(a[2], b)
 
 
 @at_node.register(Push)
 def push(work, node, a):
-    nodes, active, _, _, driven = a
+    nodes, active, _, driven = a
     J = load(node.sums, node.at)
-    vx, vy, vz = lane(J, 0), lane(J, 1), lane(J, 2)
+    vx, vy, vz = lane(J, 1), lane(J, 2), lane(J, 3)
     if vx == 0.0 and vy == 0.0 and vz == 0.0:
         return
     at = record_of(active, node.number)

@@ -83,8 +83,8 @@ class Detect(NamedTuple):
 
     `way`, `step`: how far nodes near the ground have moved at most so far, and will in this step.
     Arrays: distances, m, due, forces, touched. `forces` get the velocities to take away along and
-    across the normal, and the displacement out of the ground; `touched`: whether anything in a
-    block touches.
+    across the normal, and the displacement out of the ground; `touched`: 1 for blocks in which
+    anything touches, whose tiles alone are emptied and filled.
     """
 
     contact: object  # μ, k, D
@@ -99,10 +99,10 @@ class Detect(NamedTuple):
 @is_idle.register(Detect)
 def waits(work, a, b, begin, end):
     due = a[2]
-    count = 0
-    for p in range(begin, end):
-        count += not due[p] > work.way + work.step
-    return count == 0
+    p = begin
+    while p < end and due[p] > work.way + work.step:
+        p += 1
+    return p == end
 
 
 @visit.register(Detect)
@@ -124,17 +124,25 @@ def detect(work, here, a, p):
         u = collect_value(here.source, at, here.rows, wx, wy, wz)
         wanted = want(u, work.motion, gap, work.rate, nx, ny, nz, forces, p)
         touches = wanted > 0.0 or gap < 0.0
+        if touches:
+            begin_tile(here, touched)
         if wanted > 0.0:
             mass = pack(m[p], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
             deposit_value(here.tiles[0], here.n0 + at, here.rows, wx, wy, wz, mass)
     due[p] = TOUCHING if touches else work.way + max(gap, -d - D, 0.0)
-    if touches:
-        touched[here.b] = 1
-    elif was_touching:
+    if was_touching and not touches:
         put(forces, p, NORMAL, 0.0, 0.0, 0.0, 0.0)
         put(forces, p, TANGENT, 0.0, 0.0, 0.0, 0.0)
         put(forces, p, PUSH, 0.0, 0.0, 0.0, 0.0)
     return 0
+
+
+@inlined
+def begin_tile(here, touched):
+    """Empty the tile of a block where the first particle touches."""
+    if touched[here.b] == 0:
+        touched[here.b] = 1
+        here.tiles[0][here.n0 : here.n0 + volume(here.rows) * LANES] = 0.0
 
 
 @inlined

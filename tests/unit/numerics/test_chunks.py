@@ -8,7 +8,7 @@ import pytest
 from assembly import simulate, two_blocks
 from llvmlite.binding import Linkage
 
-from mpmgeo.numerics.chunks import ALONE, CHUNKS, Crew, blockwise
+from mpmgeo.numerics.chunks import ALONE, CHUNKS, blockwise, crew_of
 from mpmgeo.numerics.jit import compiled
 
 
@@ -64,7 +64,7 @@ def filled(crew, count):
     return even, x, y
 
 
-@pytest.mark.parametrize("crew", [ALONE, Crew.of(1), Crew.of(2)])
+@pytest.mark.parametrize("crew", [ALONE, crew_of(1), crew_of(2)])
 @pytest.mark.parametrize("count", [0, 1, 63, 1000])
 def test_all_chunks_are_done_once(crew, count):
     even, x, y = filled(crew, count)
@@ -75,12 +75,12 @@ def test_all_chunks_are_done_once(crew, count):
 
 
 def test_more_threads_than_there_are_chunks():
-    assert filled(Crew.of(numba.config.NUMBA_NUM_THREADS), 500)[0] == 250
+    assert filled(crew_of(numba.config.NUMBA_NUM_THREADS), 500)[0] == 250
 
 
 def test_one_thread_needs_nobody():
-    assert Crew.of(1) == ALONE == (0, 1)
-    assert Crew.of(2).start
+    assert crew_of(1) == ALONE == (0, 1)
+    assert crew_of(2).start
 
 
 def test_no_machine_code_is_shared_with_other_kernels():

@@ -13,7 +13,7 @@ import pytest
 
 import mpmgeo
 from mpmgeo.numerics import jit
-from mpmgeo.numerics.chunks import ALONE, CHUNKS, Crew
+from mpmgeo.numerics.chunks import ALONE, CHUNKS, crew_of
 
 PACKAGE = Path(mpmgeo.__file__).parent
 
@@ -105,7 +105,7 @@ def test_one_kernel_in_the_cache_serves_every_crew(tmp_path, monkeypatch):
         "from mpmgeo.numerics.chunks import blockwise\n@blockwise\ndef fill(c, a):\n    a[c] = c\n"
     )
     written = []
-    for crew, hits in ((ALONE, 0), (Crew.of(2), 1), (ALONE, 1)):
+    for crew, hits in ((ALONE, 0), (crew_of(2), 1), (ALONE, 1)):
         fill, a = module(source).fill, np.zeros(CHUNKS)
         fill(crew, a)
         assert sum(fill.stats.cache_hits.values()) == hits

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from assembly import assemble
 
-from mpmgeo.numerics.chunks import ALONE, Crew
+from mpmgeo.numerics.chunks import ALONE, crew_of
 from mpmgeo.state.inspection import first_unsound, kinetic_energy
 from mpmgeo.state.sorting import sort
 
-BOTH = pytest.mark.parametrize("crew", [ALONE, Crew.of(2)])
+BOTH = pytest.mark.parametrize("crew", [ALONE, crew_of(2)])
 
 
 @pytest.fixture
@@ -31,7 +31,7 @@ def test_energy_of_the_active_particles(particles, crew):
 
 
 def test_energy_has_the_same_bits_for_any_threads(particles):
-    energies = {kinetic_energy(particles, crew) for crew in (ALONE, Crew.of(2))}
+    energies = {kinetic_energy(particles, crew) for crew in (ALONE, crew_of(2))}
     assert len(energies) == 1
 
 

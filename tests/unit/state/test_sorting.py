@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from models import Spline6, Spline10
 
-from mpmgeo.numerics.chunks import ALONE, Crew
+from mpmgeo.numerics.chunks import ALONE, crew_of
 from mpmgeo.shapes import SHAPES
 from mpmgeo.state.grid import corners_of
 from mpmgeo.state.sorting import Walls, sort
@@ -136,7 +136,7 @@ def test_sorting_twice_changes_nothing():
 
 def test_order_does_not_depend_on_threads():
     orders = []
-    for crew in (ALONE, Crew.of(2)):
+    for crew in (ALONE, crew_of(2)):
         grid, sets = scattered(3000, split=2)
         random = np.random.default_rng(5)
         for _ in range(3):
