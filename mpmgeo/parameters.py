@@ -1,6 +1,6 @@
 """Declare a parameter of a case once: schema, checks, messages and manual read it from here."""
 
-from dataclasses import MISSING, field
+from dataclasses import MISSING, dataclass, field
 
 Vector = tuple[float, float, float]
 Components = tuple[float | None, float | None, float | None]
@@ -18,14 +18,16 @@ def parameter(
     maximum=None,
     choices=None,
     file=False,
+    place=False,
     key=None,
 ):
     """Return the dataclass field of one JSON key.
 
     `doc` is one sentence; `unit` is SI ("" for none); `above`/`below` are open bounds, `minimum`/
     `maximum` closed ones, and bound every component of a vector; `choices` lists the accepted
-    words; `file` marks the name of a file, resolved against the case's folder; `key` is the
-    JSON key where it is not the name of the field. Without a `default` the key is required.
+    words; `file` marks the name of a file, resolved against the case's folder; `place` marks a
+    position, or several, in the user's coordinates; `key` is the JSON key where it is not the name
+    of the field. Without a `default` the key is required.
     """
     bounds = {"above": above, "minimum": minimum, "below": below, "maximum": maximum}
     metadata = {
@@ -34,6 +36,18 @@ def parameter(
         "bounds": {name: value for name, value in bounds.items() if value is not None},
         "choices": choices,
         "file": file,
+        "place": place,
         "key": key,
     }
     return field(default=default, metadata=metadata, kw_only=True)
+
+
+@dataclass(frozen=True)
+class Placed:
+    """What says positions, itself or in a file.
+
+    `zero` [m]: where they count from in the user's coordinates; the origin of the mesh where the
+    solver works with them. It is no JSON key.
+    """
+
+    zero: Vector = field(default=(0.0, 0.0, 0.0), kw_only=True, compare=False, repr=False)

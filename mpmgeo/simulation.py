@@ -9,11 +9,13 @@ import numba
 import numpy as np
 
 from mpmgeo.case.build import build, critical_time_step
+from mpmgeo.case.coordinates import in_mesh
 from mpmgeo.mpm.incidents import Unsound
 from mpmgeo.naming import PLANES
 from mpmgeo.output.final_stress import FinalStress
 from mpmgeo.output.histories import Histories, histories_of
 from mpmgeo.output.particle_fields import particle_field
+from mpmgeo.positions import shown
 from mpmgeo.run.diagnosis import diagnose
 from mpmgeo.run.loop import run
 from mpmgeo.run.snapshots import Snapshots
@@ -42,6 +44,7 @@ class Simulation:
         self.output = None if output is None else Path(output)
         self.messages = [*case.notes, *case.warnings]
         self.solver, notes = build(case)
+        self.probes = in_mesh(case.results, case.mesh.origin).probes
         self.messages += notes
         self.threads = self._set_threads(threads or case.n_threads)
         self.critical_time_step = critical_time_step(case, self.field("velocity"))
@@ -148,10 +151,10 @@ class Simulation:
         solver = self.solver
         if solver.departures and self._once("departure"):
             first = solver.departures[0]
-            where = ", ".join(f"{x:.4g}" for x in first.position)
+            where = shown(first.position, solver.population.zero, digits=4)
             self.say(
                 f"particles leave the mesh and take no further part: the first is particle "
-                f"{first.rows[0]}, at ({where}) m after {first.time:.6g} s"
+                f"{first.rows[0]}, at {where} after {first.time:.6g} s"
             )
         if solver.base is not None and solver.base.ended and self._once("record"):
             held = "all planes are fixed" if self.case.compatibility else "the base is held"

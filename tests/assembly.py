@@ -29,7 +29,6 @@ def assemble(
     volume=0.125,
     cells=(12, 12, 12),
     cell=(1.0, 1.0, 1.0),
-    origin=(0.0, 0.0, 0.0),
     shape=SHAPES["GIMP"],
     half=(0.25, 0.25, 0.25),
     scheme="USL",
@@ -68,7 +67,7 @@ def assemble(
     body, material = np.ones(n, np.uint32), np.ones(n, np.int64)
     fields = {"planes": planes(), "time_step": 1e-3, "gravity": (0.0, 0.0, 0.0)} | more
     return Solver(
-        grid=Grid(Mesh.of(origin, cell, cells), shape.width),
+        grid=Grid(Mesh.of(cell, cells), shape.width),
         sets=sets,
         population=Population(position, size, body, material, None),
         shape=shape,

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from mpmgeo.boundaries.stl import read_stl
 from mpmgeo.boundaries.surface import Surface, surface_of
-from mpmgeo.parameters import parameter
+from mpmgeo.parameters import Placed, parameter
 
 
 class Symbols(NamedTuple):
@@ -25,7 +25,7 @@ class Symbols(NamedTuple):
 
 
 @dataclass(frozen=True)
-class TerrainContact:
+class TerrainContact(Placed):
     """Contact with a terrain given by triangles, rigid, with Coulomb friction."""
 
     active: bool = parameter("Whether there is contact", default=False)
@@ -58,11 +58,21 @@ class TerrainContact:
             yield "stl_mesh", str(error)
 
     @cached_property
+    def _triangles(self):
+        return read_stl(self.stl_mesh)
+
+    @cached_property
+    def resolution(self) -> float:
+        """Return how exactly the file holds coordinates [m]."""
+        return self._triangles.resolution
+
+    @cached_property
     def surface(self) -> Surface:
         """Return the surface of the file; raises ValueError if it cannot be used."""
-        triangles = read_stl(self.stl_mesh)
+        triangles = self._triangles
+        corner = triangles.corner - self.zero
         try:
-            surface = surface_of(triangles.corner, triangles.normal)
+            surface = surface_of(corner, triangles.normal, triangles.resolution)
         except ValueError as error:
             raise ValueError(f"{self.stl_mesh}: {error}") from None
         notes = (f"{self.stl_mesh}: {note}" for note in surface.notes)

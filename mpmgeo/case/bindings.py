@@ -5,6 +5,7 @@ import numpy as np
 from mpmgeo.boundaries.distance import Ground
 from mpmgeo.mpm.contact import Contact, ContactAsMPMGeomechanics
 from mpmgeo.mpm.tools import Tools
+from mpmgeo.positions import shown
 
 RIM = 0.01  # cells by which a point may be beyond the border of a terrain
 MARGIN = 4  # cells around the mesh in which distances are needed
@@ -48,7 +49,7 @@ def bind_pressure(case, position, notes):
     found = coupling.pressures(position, cell, last=case.compatibility is not None)
     idle = np.flatnonzero(~found.matched)
     if len(idle):
-        where = _shown(coupling.points.position[idle[0]])
+        where = shown(coupling.points.position[idle[0]], coupling.zero)
         notes.append(
             f"hydro_mechanical_coupling: {len(idle)} of {len(found.matched)} points are near no "
             f"particle, the first of them entry {idle[0] + 1} at {where}"
@@ -58,7 +59,7 @@ def bind_pressure(case, position, notes):
         notes.append(
             f"hydro_mechanical_coupling: {len(dry)} of {len(position)} particles are near no point "
             f"and keep the pore pressure 0, the first of them row {dry[0]} at "
-            f"{_shown(position[dry[0]])}"
+            f"{shown(position[dry[0]], coupling.zero)}"
         )
     return found.pressure
 
@@ -77,14 +78,15 @@ def bind_terrain(case, mesh, width, population, notes):
     if not len(surface.corner):
         low, high = terrain.surface.corner.min(axis=(0, 1)), terrain.surface.corner.max(axis=(0, 1))
         raise ValueError(
-            f"{terrain.stl_mesh}: no triangle in the mesh, {_shown(case.mesh.origin)} to "
-            f"{_shown(case.mesh.upper)}; the surface reaches from {_shown(low)} to {_shown(high)}"
+            f"{terrain.stl_mesh}: no triangle in the mesh, {shown(case.mesh.origin, terrain.zero)} "
+            f"to {shown(case.mesh.upper, terrain.zero)}; the surface reaches from "
+            f"{shown(low, terrain.zero)} to {shown(high, terrain.zero)}"
         )
     cell = sum(case.mesh.cells_dimension) / 3
     symbols = terrain.symbols(cell)
     around = surface if legacy else _meeting(case, terrain.surface, symbols.D + MARGIN * cell)
     box = (case.mesh.origin, case.mesh.upper)
-    ground = Ground.of(around, *box, RIM * cell, by_plane=legacy)
+    ground = Ground.of(around, *box, max(RIM * cell, terrain.resolution), by_plane=legacy)
     kind = ContactAsMPMGeomechanics if legacy else Contact
     contact = kind(symbols, surface, ground, mesh, width)
     _look_below(terrain, contact, population, legacy, notes)
@@ -118,15 +120,11 @@ def _look_below(terrain, contact, population, legacy, notes):
     below = np.flatnonzero(contact.distance(position) < -0.5 * size.max(axis=1))
     if not len(below):
         return
+    where = shown(position[below[0]], terrain.zero)
     message = (
         f"{terrain.stl_mesh}: {len(below)} of {len(position)} particles begin below the surface, "
-        f"one at {_shown(position[below[0]])}; the outside of a triangle is where its corners run "
-        "anticlockwise"
+        f"one at {where}; the outside of a triangle is where its corners run anticlockwise"
     )
     if 2 * len(below) > len(position) and not legacy:
         raise ValueError(f"{message}: is the surface inside out?")
     notes.append(message)
-
-
-def _shown(position):
-    return f"({', '.join(f'{x:g}' for x in position)}) m"

@@ -8,6 +8,7 @@ import numpy as np
 from mpmgeo.boundaries.base_motion import BaseMotion, BaseMotionAsMPMGeomechanics
 from mpmgeo.boundaries.planes import Planes
 from mpmgeo.case.bindings import bind_pressure, bind_terrain, bind_tools
+from mpmgeo.case.coordinates import in_mesh
 from mpmgeo.case.populate import populate
 from mpmgeo.case.saturate import saturate
 from mpmgeo.damping import KineticDamping, LocalDamping
@@ -35,8 +36,9 @@ def build(case):
     Raises ValueError for a record or geometry that cannot be used.
     """
     notes = []
+    case = in_mesh(case, case.mesh.origin)
     population, velocity, law = populate(case, notes)
-    mesh = Mesh.of(case.mesh.origin, case.mesh.cells_dimension, case.mesh.cells_number)
+    mesh = Mesh.of(case.mesh.cells_dimension, case.mesh.cells_number)
     shape = SHAPES[case.shape_function]
     legacy = case.compatibility is not None
     damping = case.damping.value if isinstance(case.damping, LocalDamping) else 0.0
@@ -189,6 +191,6 @@ def _point_loads(case):
     loads = case.nodal_point_load
     if not loads:
         return None
-    origin, cell = np.array(case.mesh.origin), np.array(case.mesh.cells_dimension)
-    nodes = [load.node(origin, cell) - GHOSTS for load in loads]
+    cell = np.array(case.mesh.cells_dimension)
+    nodes = [load.node(cell) - GHOSTS for load in loads]
     return PointLoads(nodes, [load.force for load in loads])

@@ -10,6 +10,7 @@ from mpmgeo.case.spec import Case
 from mpmgeo.loads import OF_THE_FLUID
 from mpmgeo.materials import saturation
 from mpmgeo.output.fields import FLUID_FIELDS, TERRAIN_FIELDS
+from mpmgeo.positions import resolution
 
 MOST_STEPS = 1e12
 """Steps beyond which no run comes to its end."""
@@ -28,7 +29,7 @@ ONE_PHASE_ONLY = (
 """Top-level keys and values (None: any) that do not go with two phases, and why."""
 
 SLACK = 1e-9
-"""Share of a cell by which a position may lie outside the mesh through round-off."""
+"""Share of a cell by which a position may lie outside the mesh through round-off, at least."""
 
 
 def check(tree, parts, report):
@@ -108,8 +109,9 @@ def _check_point_loads(tree, parts, report):
 
 
 def _is_inside(position, mesh):
-    axes = zip(position, mesh.origin, mesh.upper, mesh.cells_dimension, strict=True)
-    return all(low - SLACK * h <= x <= high + SLACK * h for x, low, high, h in axes)
+    slack = np.maximum(SLACK * np.array(mesh.cells_dimension), resolution(mesh.zero, mesh.upper))
+    low, high = mesh.origin - slack, mesh.upper + slack
+    return bool(((low <= position) & (position <= high)).all())
 
 
 def _check_steps(tree, parts, report):

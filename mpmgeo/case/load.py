@@ -5,6 +5,7 @@ from pathlib import Path
 
 from mpmgeo.case.aliases import rename
 from mpmgeo.case.checks import check
+from mpmgeo.case.coordinates import reading_in_mesh
 from mpmgeo.case.explain import validate
 from mpmgeo.case.inactive import drop_inactive
 from mpmgeo.case.kinds import Kind, declared, word_of
@@ -101,7 +102,10 @@ class Builder:
                 arguments[field.name] = BROKEN
         if any(argument is BROKEN for argument in arguments.values()):
             return BROKEN
-        return self._sound(cls(**arguments), path, step)
+        mesh = self.parts.get(("mesh",))  # declared, so made, before all that reads positions
+        made = cls(**arguments)
+        made = made if mesh is None else reading_in_mesh(made, mesh.origin)
+        return self._sound(made, path, step)
 
     def _sound(self, made, path, step):
         """Return an object without problems, BROKEN otherwise."""

@@ -16,7 +16,7 @@ import numpy as np
 from mpmgeo.listed import is_number, position_problem, read_entries, shown
 from mpmgeo.numerics.fit import linear_fit
 from mpmgeo.numerics.neighbours import Neighbours
-from mpmgeo.parameters import parameter
+from mpmgeo.parameters import Placed, parameter
 
 RADII = {"nearest": 0.5, "linear": 1.5}
 """Radius of the search in mean cell sizes where none is given."""
@@ -39,7 +39,7 @@ class Pressures(NamedTuple):
 
 
 @dataclass(frozen=True)
-class HydroMechanicalCoupling:
+class HydroMechanicalCoupling(Placed):
     """Pore pressures that a file gives at points and that the particles keep for the whole run."""
 
     enabled: bool = parameter("Whether the pore pressures act", default=False)
@@ -86,7 +86,7 @@ class HydroMechanicalCoupling:
         if not entries:
             raise ValueError(f"{self.pore_pressure_field}: the list is empty")
         return Points(
-            np.array([entry["position"] for entry in entries], float),
+            np.array([entry["position"] for entry in entries], float) - self.zero,
             np.array([entry["pressure"] for entry in entries], float),
         )
 

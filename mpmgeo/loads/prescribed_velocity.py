@@ -11,7 +11,7 @@ import numpy as np
 
 from mpmgeo.loads.table import read_table
 from mpmgeo.naming import PLANES, name_problems
-from mpmgeo.parameters import Components, Vector, parameter
+from mpmgeo.parameters import Components, Placed, Vector, parameter
 from mpmgeo.region import turned, within
 
 
@@ -50,7 +50,7 @@ class Motion:
 
 
 @dataclass(frozen=True)
-class PrescribedVelocity:
+class PrescribedVelocity(Placed):
     """A velocity that particles or the nodes of a plane keep, whatever the forces."""
 
     name: str = parameter("Name of the file of its history, in the folder reactions", default="")
@@ -58,10 +58,11 @@ class PrescribedVelocity:
     point_p1: Vector | None = parameter(
         "Corner of lowest coordinates of a box; the particles that start in it are meant",
         unit="m",
+        place=True,
         default=None,
     )
     point_p2: Vector | None = parameter(
-        "Corner of highest coordinates of the box", unit="m", default=None
+        "Corner of highest coordinates of the box", unit="m", place=True, default=None
     )
     plane: str | None = parameter("Plane of the mesh", choices=PLANES, default=None)
     velocity: Components | None = parameter(
@@ -120,4 +121,4 @@ class PrescribedVelocity:
             return np.zeros(len(position), bool)
         if self.body is not None:
             return body == self.body
-        return within(self.point_p1, self.point_p2, position)
+        return within(self.point_p1, self.point_p2, position, self.zero)

@@ -66,9 +66,9 @@ def level_at(level, n0, row, wx, wy, wz):
 def tile_origin(mesh, corner, b, shift):
     """Return the position of the first node of the tile of distances of block b."""
     return pack4(
-        mesh.ox + (corner[b, 0] * SIDE + shift[0]) * mesh.hx,
-        mesh.oy + (corner[b, 1] * SIDE + shift[1]) * mesh.hy,
-        mesh.oz + (corner[b, 2] * SIDE + shift[2]) * mesh.hz,
+        (corner[b, 0] * SIDE + shift[0]) * mesh.hx,
+        (corner[b, 1] * SIDE + shift[1]) * mesh.hy,
+        (corner[b, 2] * SIDE + shift[2]) * mesh.hz,
         0.0,
     )
 

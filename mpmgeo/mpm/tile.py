@@ -39,9 +39,9 @@ def _half_size(half, p):
 def block_origin(mesh, corner, b):
     """Return the position of the first node of block b."""
     return pack4(
-        mesh.ox + corner[b, 0] * SIDE * mesh.hx,
-        mesh.oy + corner[b, 1] * SIDE * mesh.hy,
-        mesh.oz + corner[b, 2] * SIDE * mesh.hz,
+        corner[b, 0] * SIDE * mesh.hx,
+        corner[b, 1] * SIDE * mesh.hy,
+        corner[b, 2] * SIDE * mesh.hz,
         0.0,
     )
 

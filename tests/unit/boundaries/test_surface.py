@@ -11,8 +11,8 @@ BOX = terrains.box([0, 0, 0], [2, 1, 3])
 HILL = terrains.patch(lambda x, y: np.cos(x) * np.sin(y), -3.0, 3.0, 12)
 
 
-def surface(corner):
-    return surface_of(corner, np.zeros((len(corner), 3)))
+def surface(corner, resolution=0.0):
+    return surface_of(corner, np.zeros((len(corner), 3)), resolution)
 
 
 def turned(corner, which):
@@ -50,7 +50,8 @@ def test_single_precision_and_any_order_change_nothing(corner):
     random = np.random.default_rng(0)
     order = random.permutation(len(corner))
     spread = 1e3 * (1 + random.uniform(-1, 1, corner.shape) * 5e-8)
-    found, wanted = surface(spread[order] * corner[order]), surface(corner)
+    single = np.finfo(np.float32).eps * 1e3 * np.abs(corner).max()
+    found, wanted = surface(spread[order] * corner[order], single), surface(corner)
     assert found.normal == pytest.approx(wanted.normal[order], abs=1e-5)
     assert (found.rim == wanted.rim[order]).all()
 

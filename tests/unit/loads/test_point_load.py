@@ -5,7 +5,8 @@ from mpmgeo.loads import PointLoad
 
 
 def node(position, origin=(0, 0, 0), cell=(1, 1, 1)):
-    return PointLoad(position=position, force=(0, 0, -1)).node(origin, cell).tolist()
+    place = tuple(np.subtract(position, origin))
+    return PointLoad(position=place, force=(0, 0, -1), zero=origin).node(cell).tolist()
 
 
 def test_indices_count_the_two_ghost_layers():
