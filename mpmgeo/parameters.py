@@ -1,6 +1,7 @@
 """Declare a parameter of a case once: schema, checks, messages and manual read it from here."""
 
-from dataclasses import MISSING, dataclass, field
+from dataclasses import MISSING, field
+from typing import ClassVar
 
 Vector = tuple[float, float, float]
 Components = tuple[float | None, float | None, float | None]
@@ -42,12 +43,11 @@ def parameter(
     return field(default=default, metadata=metadata, kw_only=True)
 
 
-@dataclass(frozen=True)
 class Placed:
     """What says positions, itself or in a file.
 
-    `zero` [m]: where they count from in the user's coordinates; the origin of the mesh where the
-    solver works with them. It is no JSON key.
+    `zero` (3,) [m]: where they count from in the user's coordinates; the origin of the mesh where
+    the solver works with them.
     """
 
-    zero: Vector = field(default=(0.0, 0.0, 0.0), kw_only=True, compare=False, repr=False)
+    zero: ClassVar[Vector] = (0.0, 0.0, 0.0)

@@ -185,6 +185,7 @@ class Simulation:
         try:
             action()
         except Unsound as error:
+            error.position = error.position + self.solver.population.zero
             raise Diverged(diagnose(self, error, self._last_stress(error.row))) from error
 
     def _last_stress(self, row):

@@ -15,13 +15,19 @@ def in_mesh(part, origin):
 
     What does not change is the same object, with all that it has read from files.
     """
-    changes = {} if getattr(part, "zero", origin) == origin else {"zero": origin}
+    changes = {}
     for item in fields(part):
         old = getattr(part, item.name)
         new = _minus(old, origin) if item.metadata.get("place") else _inside(old, origin)
         if new is not old:
             changes[item.name] = new
-    return replace(part, **changes) if changes else part
+    counts_from_there = not isinstance(part, Placed) or part.zero == origin
+    if counts_from_there and not changes:
+        return part
+    made = replace(part, **changes)
+    if isinstance(part, Placed):
+        vars(made)["zero"] = origin
+    return made
 
 
 def reading_in_mesh(part, origin):

@@ -13,7 +13,7 @@ def diagnose(simulation, error, last_stress):
     `last_stress` (6,) is the particle's in the last sound state [Pa], or None without one.
     """
     dt = simulation.time_step
-    where = shown(error.position, simulation.solver.population.zero, digits=4)
+    where = shown(error.position, digits=4)
     stress = error.stress if last_stress is None else last_stress
     stress = ", ".join(f"{s:.4g}" for s in stress)
     speed = hypot(*error.velocity)  # squares of such speeds may overflow

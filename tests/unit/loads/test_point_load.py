@@ -1,12 +1,13 @@
 import numpy as np
 import pytest
 
+from mpmgeo.case.coordinates import in_mesh
 from mpmgeo.loads import PointLoad
 
 
 def node(position, origin=(0, 0, 0), cell=(1, 1, 1)):
-    place = tuple(np.subtract(position, origin))
-    return PointLoad(position=place, force=(0, 0, -1), zero=origin).node(cell).tolist()
+    load = PointLoad(position=position, force=(0, 0, -1))
+    return in_mesh(load, origin).node(cell).tolist()
 
 
 def test_indices_count_the_two_ghost_layers():
