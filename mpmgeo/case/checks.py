@@ -109,7 +109,9 @@ def _check_point_loads(tree, parts, report):
 
 
 def _is_inside(position, mesh):
-    slack = np.maximum(SLACK * np.array(mesh.cells_dimension), resolution(mesh.zero, mesh.upper))
+    slack = np.maximum(
+        SLACK * np.array(mesh.cells_dimension), resolution(mesh.zero, mesh.origin, mesh.upper)
+    )
     low, high = mesh.origin - slack, mesh.upper + slack
     return bool(((low <= position) & (position <= high)).all())
 

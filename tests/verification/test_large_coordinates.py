@@ -1,6 +1,5 @@
 """Far from (0, 0, 0), as in UTM coordinates: bodies, motion and terrain as near by."""
 
-import json
 from pathlib import Path
 
 import numpy as np
@@ -137,14 +136,12 @@ def test_a_terrain_of_text_keeps_its_triangles(tmp_path):
     far = simulate(valley(tmp_path, EAST, NORTH, write=as_text))
     assert not [m for m in far.messages if "left out" in m]
     assert lint(far) == []
-    touched = False
-    for _ in range(8):
+    for _ in range(4):
         for simulation in (near, far):
-            simulation.step(25)
+            simulation.step(50)
         for key in ("displacement", "distance_levelset", "particle_contact_force"):
             np.testing.assert_array_equal(far.field(key), near.field(key))
-        touched = touched or far.field("particle_contact_flag").any()
-    assert touched
+    assert far.field("distance_levelset").min() > 0.1  # it would have fallen 1 m
 
 
 def test_a_binary_terrain_is_as_coarse_as_single_precision_and_says_so(tmp_path):
@@ -215,9 +212,9 @@ def test_reported_cuboid():
 def test_reported_slow_motion(name):
     path = FAILING / "utm-slow-motion" / f"{name}.json"
     case = mpmgeo.load_case(path)
-    way = json.loads(path.read_text())["prescribed_velocity"]["p"]["velocity"][1] * 0.5
-    found = mpmgeo.Simulation(case).run().field("displacement")
-    assert np.abs(found[:, 1] / way - 1).max() < 5e-7
+    simulation = mpmgeo.Simulation(case).run()
+    way = case.prescribed_velocity[0].velocity[1] * simulation.time
+    assert np.abs(simulation.field("displacement")[:, 1] / way - 1).max() < 5e-7
 
 
 @needs_inputs
