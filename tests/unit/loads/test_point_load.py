@@ -28,3 +28,10 @@ def test_halfway_is_not_decided_by_round_off():
 def test_origin_and_anisotropic_cells():
     position = np.array([-1.0, 2.0, 0.3]) + np.array([0.5, 0.25, 2.0]) * [3.2, 1.9, 0.4]
     assert node(tuple(position), (-1.0, 2.0, 0.3), (0.5, 0.25, 2.0)) == [5, 4, 2]
+
+
+def test_halfway_far_away_is_not_decided_by_round_off_either():
+    """4500000.15 is 1.4999999944… cells from 4500000."""
+    origin = (5e5, 4.5e6, 0.0)
+    position = (500_000.15, 4_500_000.15, 0.15)
+    assert node(position, origin, (0.1, 0.1, 0.1)) == [4, 4, 4]
