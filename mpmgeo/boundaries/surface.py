@@ -75,20 +75,22 @@ def _joined(corner, resolution):
     x, vertex = x[order[fresh]], number.reshape(-1, 3)
     # only where triangles do not meet exactly can there be corners to join
     edge, count = _edges(vertex)
-    loose = np.unique(vertex[(count == 1)[edge] | np.roll((count == 1)[edge], 1, axis=1)])
+    alone = (count == 1)[edge]
+    loose, rows = np.unique(vertex[alone | np.roll(alone, 1, axis=1)]), alone.any(axis=1)
     lowest = np.arange(len(x))
-    if len(loose):
-        tolerance = np.maximum(2 * resolution, JOINED * _longest(corner, vertex)[loose])
+    longest = _longest(corner[rows], vertex[rows], len(x))[loose]
+    tolerance = np.maximum(2 * resolution, JOINED * longest)
+    if tolerance.max(initial=0.0) > 0:
         for one, other, distance in Neighbours(x[loose], tolerance.max()).pairs(x[loose]):
             near = distance <= np.minimum(tolerance[one], tolerance[other])
             np.minimum.at(lowest, loose[one[near]], loose[other[near]])
     return lowest[vertex]
 
 
-def _longest(corner, vertex):
-    """Return for each corner (m,) the longest edge [m] of the triangles around it."""
-    edge = np.linalg.norm(corner - np.roll(corner, -1, axis=1), axis=2).max(axis=1)
-    longest = np.zeros(vertex.max() + 1)
+def _longest(corner, vertex, number):
+    """Return for each of a number of corners the longest edge [m] of the triangles around it."""
+    edge = np.linalg.norm(corner - np.roll(corner, -1, axis=1), axis=2).max(axis=1, initial=0.0)
+    longest = np.zeros(number)
     np.maximum.at(longest, vertex.ravel(), np.repeat(edge, 3))
     return longest
 
