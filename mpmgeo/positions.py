@@ -25,10 +25,13 @@ def resolution(zero, *positions) -> np.ndarray:
 
 def shown(position, zero=NOWHERE, digits=6) -> str:
     """Return a position (3,) [m] as messages show it."""
-    return f"({', '.join(_number(x + o, digits) for x, o in zip(position, zero, strict=True))}) m"
+    return (
+        f"({', '.join(coordinate(x + o, digits) for x, o in zip(position, zero, strict=True))}) m"
+    )
 
 
-def _number(x, digits):
+def coordinate(x, digits=6) -> str:
+    """Return a coordinate [m] as messages show it: large ones to the millimetre."""
     if 10 ** (digits - DECIMALS) <= abs(x) < 1e12:
         digits = int(log10(abs(x))) + 1 + DECIMALS
     return f"{x:.{digits}g}"

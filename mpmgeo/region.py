@@ -6,18 +6,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from mpmgeo.parameters import Placed, Vector, parameter
-from mpmgeo.positions import NOWHERE, resolution
+from mpmgeo.positions import NOWHERE, coordinate, resolution
 
 
 def turned(low, high) -> Iterator[tuple[str, str]]:
     """Yield (key, message) for every axis along which a box is turned round."""
     for name, lower, upper in zip("xyz", low, high, strict=True):
         if upper < lower:
-            yield "point_p2", f"{name} is {upper:g}, below that of point_p1, {lower:g}"
+            text = f"{coordinate(upper)}, below that of point_p1, {coordinate(lower)}"
+            yield "point_p2", f"{name} is {text}"
 
 
 def bounds(low, high, zero=NOWHERE) -> tuple[np.ndarray, np.ndarray]:
-    """Return the corners (3,) [m] of a closed box, apart by what doubles do not resolve of them."""
+    """Return the corners (3,) [m] of a closed box, widened by what doubles do not resolve."""
     slack = resolution(zero, low, high)
     return low - slack, high + slack
 

@@ -10,6 +10,7 @@ from mpmgeo.bodies.body import Filled
 from mpmgeo.bodies.cloud import Cloud
 from mpmgeo.bodies.lattice import Lattice
 from mpmgeo.parameters import Vector, parameter
+from mpmgeo.positions import coordinate
 
 
 @dataclass(frozen=True)
@@ -25,7 +26,8 @@ class Cuboid(Filled):
         """Yield (key, message) for every axis along which the box is empty."""
         for name, low, high in zip("xyz", self.point_p1, self.point_p2, strict=True):
             if not high > low:
-                yield "point_p2", f"{name} is {high:g} and must exceed that of point_p1, {low:g}"
+                text = f"{coordinate(high)} and must exceed that of point_p1, {coordinate(low)}"
+                yield "point_p2", f"{name} is {text}"
 
     def lattice(self, cell: np.ndarray) -> Lattice:
         """Return the candidate positions; raises ValueError if there are too many."""

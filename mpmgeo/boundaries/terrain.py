@@ -57,26 +57,26 @@ class TerrainContact(Placed):
         except ValueError as error:
             yield "stl_mesh", str(error)
 
-    @cached_property
-    def _triangles(self):
-        return read_stl(self.stl_mesh)
-
-    @cached_property
-    def resolution(self) -> float:
-        """Return how exactly the file holds coordinates [m]."""
-        return self._triangles.resolution
-
-    @cached_property
+    @property
     def surface(self) -> Surface:
         """Return the surface of the file; raises ValueError if it cannot be used."""
-        triangles = self._triangles
-        corner = triangles.corner - self.zero
+        return self._content[0]
+
+    @property
+    def resolution(self) -> float:
+        """Return how exactly the file holds coordinates [m]; raises ValueError as `surface`."""
+        return self._content[1]
+
+    @cached_property
+    def _content(self):
+        triangles = read_stl(self.stl_mesh)
+        corner, known = triangles.corner - self.zero, triangles.resolution
         try:
-            surface = surface_of(corner, triangles.normal, triangles.resolution)
+            surface = surface_of(corner, triangles.normal, known)
         except ValueError as error:
             raise ValueError(f"{self.stl_mesh}: {error}") from None
         notes = (f"{self.stl_mesh}: {note}" for note in surface.notes)
-        return surface._replace(notes=(*triangles.warnings, *notes))
+        return surface._replace(notes=(*triangles.warnings, *notes)), known
 
     def symbols(self, cell: float) -> Symbols:
         """Return what the kernels use; `cell`: mean cell size [m]."""
