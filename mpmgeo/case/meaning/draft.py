@@ -8,6 +8,7 @@ from dataclasses import MISSING
 from pathlib import Path
 from typing import NamedTuple
 
+from mpmgeo.case.coordinates import reading_in_mesh
 from mpmgeo.case.kinds import Kind, declared, word_of
 from mpmgeo.case.spec import Case
 from mpmgeo.values import is_number, shown
@@ -146,6 +147,8 @@ class _Maker:
     def _tried(self, cls, part):
         """Return a part with its object, unless that has problems."""
         made, problems = cls(**part.values), {}
+        for mesh in self.draft.made("mesh"):  # declared, so made, before all that reads positions
+            made = reading_in_mesh(made, mesh.origin)
         for key, message in made.problems() if hasattr(made, "problems") else ():
             problems.setdefault(key, []).append(message)
         for key, messages in problems.items():
