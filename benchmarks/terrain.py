@@ -16,7 +16,9 @@ from scenes import CELL, SOLID, TIME_STEP, simulation
 
 from mpmgeo.boundaries.distance import Ground, fill
 from mpmgeo.boundaries.surface import surface_of
-from mpmgeo.state.grid import NODES, Mesh
+from mpmgeo.numerics.chunks import Crew
+from mpmgeo.state.grid import Mesh
+from mpmgeo.state.layout import NODES
 
 HEIGHT = 5  # cells: ten layers of particles, of which one touches
 MARGIN = 4  # cells around the slab
@@ -116,7 +118,7 @@ def time_distances(table, triangles, nodes, rounds):
             surface = surface_of(corner, np.zeros((len(corner), 3)))
             joined = time.perf_counter()
             ground = Ground.of(surface, 3 * (0.0,), 3 * (10.0,), 0.01 * mesh.hx)
-            fill(ground, mesh, 1.0, blocks, out)
+            fill(Crew.of(threads), ground, mesh, 1.0, blocks, out)
             end = time.perf_counter()
             parts.append((joined - begin, end - joined))
         joining, distances = (np.array(seconds) for seconds in zip(*parts, strict=True))
