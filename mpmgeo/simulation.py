@@ -165,6 +165,10 @@ class Simulation:
             last = self.solver.departures[-1].time
             self.say(f"{count} particles left the mesh, the last of them after {last:.6g} s")
 
+    def arrange(self):
+        """Bring the particles in the order that looking for them by place needs."""
+        self._guarded(self.solver.arrange)
+
     def check(self):
         """Raise Diverged unless all particles are sound."""
         self._guarded(self.solver.check)

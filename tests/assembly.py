@@ -72,6 +72,8 @@ def assemble(
     size = np.full((n, 3), 0.5)
     body, material = np.ones(n, np.uint32), np.ones(n, np.int64)
     fields = {"planes": planes(), "time_step": 1e-3, "gravity": (0.0, 0.0, 0.0)} | more
+    if local is not None:
+        fields["damping"] = (LocalDamping(value=local).symbols,)
     if settles:
         fields["effects"] = (*fields.get("effects", ()), KineticDamping().effect())
     return Solver(
@@ -80,7 +82,6 @@ def assemble(
         population=Population(position, size, body, material, None),
         shape=shape,
         scheme=SCHEMES[scheme],
-        damping=() if local is None else (LocalDamping(value=local).symbols,),
         early_damping=None if delayed is None else LocalDamping(value=delayed).symbols,
         **fields,
     )

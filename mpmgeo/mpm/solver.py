@@ -79,9 +79,9 @@ class Solver(Stages):
             yield from effect.news(self)
 
     def arrange(self):
-        """Sort the particles now if some are not where the order says."""
+        """Sort the particles now if some are not where the order says; may raise Unsound."""
         if self.gone:
-            self._sort(judge=False)
+            self._sort()
 
     def keep(self, kept=None):
         """Return a copy of the whole state, in the arrays of the copy `kept` if there is one."""
@@ -90,7 +90,8 @@ class Solver(Stages):
     def restore(self, kept):
         """Go back to the state that `keep` returned."""
         take_over(self, kept)
-        self.arrange()
+        if self.gone:
+            self._sort(judge=False)
 
     def step(self):
         """Advance by one time step; the first one changes velocities by half a step."""

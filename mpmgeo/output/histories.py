@@ -106,7 +106,7 @@ class Histories:
     def _add(self, simulation):
         due = [h for h in self.histories if simulation.steps % h.every == 0]
         if due:
-            simulation.solver.arrange()
+            simulation.arrange()
         for history in due:
             history.add(simulation.label)
 

@@ -71,6 +71,8 @@ class ResultFiles:
 
     def _write(self, simulation, first=False):
         label = simulation.label
+        if simulation.solver.ground is not None:
+            simulation.arrange()
         if first or not self.results.particles_once:
             self._write_particles(simulation, label)
         if first or not self.results.grid_once:
@@ -125,5 +127,5 @@ class ResultFiles:
                 f"the mesh has {x * y * z} cells; grid files hold those near particles "
                 '(all of them with "grid_all_cells": true in results)'
             )
-        simulation.solver.arrange()
+        simulation.arrange()
         return block_cells(self.mesh, simulation.solver.grid.active_corner * SIDE + GHOSTS)

@@ -137,10 +137,10 @@ def held(free, n, a):
 
 
 @compiled
-def gather(shape, box, law, rotation, rows, half, x, v, V, stress, state, A, drift, U, dt, h):
+def gather(shape, box, law, rotation, rows, half, x, v, material, A, drift, U, dt, h):
     """Change v by the nodal A, move x with `drift`, strain with U; what is None is left out.
 
-    `law` None: no strain.
+    `law` None: no strain; `material`: volumes, stresses, variables of the law.
     """
     S = width(shape)
     for p in rows:
@@ -165,17 +165,17 @@ def gather(shape, box, law, rotation, rows, half, x, v, V, stress, state, A, dri
             v[p, c] += h * a[c]
             x[p, c] += dt * u[c]
         if law is not None:
-            strain(law, rotation, dx, dy, dz, V, stress, state, p, dt)
+            strain(law, rotation, dx, dy, dz, material, p, dt)
 
 
 @inlined
-def strain(law, rotation, dx, dy, dz, V, stress, state, p, dt):
+def strain(law, rotation, dx, dy, dz, material, p, dt):
     """Update the material of particle p; `dx` … are the columns of its velocity gradient."""
     x, y, z = plus(ZERO, dt, dx), plus(ZERO, dt, dy), plus(ZERO, dt, dz)
     xy, yz, xz = 0.5 * (x[1] + y[0]), 0.5 * (y[2] + z[1]), 0.5 * (z[0] + x[2])
     ε = x[0], y[1], z[2], xy, yz, xz
     W = 0.5 * (y[0] - x[1]), 0.5 * (z[1] - y[2]), 0.5 * (z[0] - x[2])
-    advance(law, rotation, ε, W, V, stress, state, None, p, dt)
+    advance(law, rotation, ε, W, *material, None, p, dt)
 
 
 @compiled
@@ -293,6 +293,6 @@ class PlainSolver:
         for (law, rotation, rows), state in zip(self.sets, self.state, strict=True):
             gather(
                 *(self.shape, self.box, law if strains else None, rotation, rows, self.half),
-                *(self.x, self.v, self.V, self.stress, state, A, drift, self.U),
+                *(self.x, self.v, (self.V, self.stress, state), A, drift, self.U),
                 *(self.time_step, h),
             )

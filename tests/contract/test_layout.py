@@ -17,7 +17,7 @@ FILE = pytest.mark.parametrize("path", FILES, ids=[str(f.relative_to(PACKAGE)) f
 # Each part of the package imports only from the rows above its own.
 LEVELS = (
     {"parameters", "numerics", "naming", "values", "positions", "effect"},
-    {"region", "listed", "action"},
+    {"region", "listed", "action", "formulation"},
     {"state"},
     {"shapes", "materials", "bodies", "boundaries", "loads", "damping", "output"},
     {"mpm"},
@@ -190,3 +190,43 @@ def test_a_case_is_read_without_writers():
     )
     # numba itself imports scipy where there is one
     assert not set(done.stdout.split()) & (HEAVY - {"jsonschema", "scipy"})
+
+
+LOOPS_OF_THE_METHOD = 6
+MOST_ARGUMENTS = 14
+
+
+def kernels(path):
+    """Yield the functions of a file that are compiled with loops over chunks, or by themselves."""
+    for node in ast.walk(tree_of(path)):
+        if isinstance(node, ast.FunctionDef):
+            marks = {ast.unparse(mark) for mark in node.decorator_list}
+            if marks & {"blockwise", "compiled"}:
+                yield node, marks
+
+
+def test_the_method_has_few_loops():
+    """What is done to a particle or node is said once, how they are gone through once."""
+    loops = [
+        n.name for f in (PACKAGE / "mpm").rglob("*.py") for n, m in kernels(f) if "blockwise" in m
+    ]
+    assert {"over_particles", "over_nodes"} <= set(loops)
+    assert len(loops) <= LOOPS_OF_THE_METHOD
+    assert not any(
+        "prange" in path.read_text(encoding="utf-8") for path in FILES if path.name != "chunks.py"
+    )
+
+
+@FILE
+def test_kernels_take_few_arguments(path):
+    for node, _ in kernels(path):
+        assert len(node.args.args) <= MOST_ARGUMENTS, node.name
+
+
+@pytest.mark.parametrize("name", ["schemes.py", "stages.py"])
+def test_schemes_and_stages_know_no_effect(name):
+    tree = tree_of(PACKAGE / "mpm" / name)
+    words = {getattr(node, "id", getattr(node, "attr", "")).lower() for node in ast.walk(tree)}
+    words |= {alias for path in imported(ast.walk(tree)) for alias in path.lower().split(".")}
+    for effect in ("contact", "ground", "tools", "fluid", "base", "reactions", "terrain"):
+        assert not any(effect in word for word in words), effect

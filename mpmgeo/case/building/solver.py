@@ -68,11 +68,12 @@ def build(case):
 
 def _damping(case):
     """Return the models of damping at the nodes, and the one that acts as in MPM-Geomechanics."""
-    models = tuple(kind.symbols for kind in case.dampings if kind.symbols is not None)
-    if case.compatibility is None or case.stress_scheme_update == "USF":
-        return models, None
-    early = next((kind.symbols for kind in case.dampings if kind.type == LocalDamping.type), None)
-    return tuple(model for model in models if model is not early), early
+    acting = [kind for kind in case.dampings if kind.symbols is not None]
+    early = []
+    if case.compatibility is not None and case.stress_scheme_update != "USF":
+        early = [kind for kind in acting if kind.type == LocalDamping.type][:1]
+    models = tuple(kind.symbols for kind in acting if kind not in early)
+    return models, early[0].symbols if early else None
 
 
 def _of_loads(case, mesh):
