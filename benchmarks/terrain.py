@@ -96,7 +96,7 @@ def near_blocks(nodes):
     """Return a mesh over the hills and the blocks along them with about so many nodes."""
     side = round((nodes / NODES / 2) ** 0.5)
     h = 10.0 / side / 4
-    mesh = Mesh.of((0.0, 0.0, 0.0), (h, h, h), (4 * side, 4 * side, round(4.0 / h)))
+    mesh = Mesh.of((h, h, h), (4 * side, 4 * side, round(4.0 / h)))
     i, j, k = np.meshgrid(np.arange(side), np.arange(side), np.arange(2), indexing="ij")
     height = 2.0 + np.sin((4 * i + 2) * h) * np.cos((4 * j + 2) * h)
     return mesh, np.stack([i, j, k - 1 + np.round(height / h / 4).astype(int)], -1).reshape(-1, 3)
@@ -115,7 +115,7 @@ def time_distances(table, triangles, nodes, rounds):
             begin = time.perf_counter()
             surface = surface_of(corner, np.zeros((len(corner), 3)))
             joined = time.perf_counter()
-            ground = Ground.of(surface, mesh[:3], 3 * (10.0,), 0.01 * mesh.hx)
+            ground = Ground.of(surface, 3 * (0.0,), 3 * (10.0,), 0.01 * mesh.hx)
             fill(crew, ground, mesh, 1.0, blocks, out)
             end = time.perf_counter()
             parts.append((joined - begin, end - joined))

@@ -31,10 +31,10 @@ class Action:
     - `fluid_force(position)`: the same on the fluid in their pores,
     - `wets(position, material)`: which (n,) of them have its `pressure` [Pa] in their pores at the
       start; `is_kept`: for the whole run,
-
     - `effect(actions, mesh)`: what all of the case's together do during a step,
 
-    or it is bound to the solver in `case/building/`.
+    or it is bound to the solver in `case/building/`. By then all positions, its own and those that
+    it is given, are in coordinates of the mesh.
     """
 
     key: ClassVar[str]

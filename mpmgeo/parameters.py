@@ -1,6 +1,7 @@
 """Declare a parameter of a case once: schema, checks, messages and manual read it from here."""
 
 from dataclasses import MISSING, field
+from typing import ClassVar
 
 Vector = tuple[float, float, float]
 Components = tuple[float | None, float | None, float | None]
@@ -18,6 +19,7 @@ def parameter(
     maximum=None,
     choices=None,
     file=False,
+    place=False,
     key=None,
     several=False,
 ):
@@ -25,9 +27,10 @@ def parameter(
 
     `doc` is one sentence; `unit` is SI ("" for none); `above`/`below` are open bounds, `minimum`/
     `maximum` closed ones, and bound every component of a vector; `choices` lists the accepted
-    words; `file` marks the name of a file, resolved against the case's folder; `key` is the
-    JSON key where it is not the name of the field; `several`: a list of objects is accepted in the
-    place of one. Without a `default` the key is required.
+    words; `file` marks the name of a file, resolved against the case's folder; `place` marks a
+    position, or several, in the user's coordinates; `key` is the JSON key where it is not the name
+    of the field; `several`: a list of objects is accepted in the place of one. Without a `default`
+    the key is required.
     """
     bounds = {"above": above, "minimum": minimum, "below": below, "maximum": maximum}
     metadata = {
@@ -36,7 +39,18 @@ def parameter(
         "bounds": {name: value for name, value in bounds.items() if value is not None},
         "choices": choices,
         "file": file,
+        "place": place,
         "key": key,
         "several": several,
     }
     return field(default=default, metadata=metadata, kw_only=True)
+
+
+class Placed:
+    """What says positions, itself or in a file.
+
+    `zero` (3,) [m]: where they count from in the user's coordinates; the origin of the mesh where
+    the solver works with them.
+    """
+
+    zero: ClassVar[Vector] = (0.0, 0.0, 0.0)

@@ -10,6 +10,7 @@ import numpy as np
 
 from mpmgeo.case.building.solver import build
 from mpmgeo.case.building.time_step import critical_time_step
+from mpmgeo.case.coordinates import in_mesh
 from mpmgeo.mpm.incidents import Unsound
 from mpmgeo.naming import GHOSTS, PLANES
 from mpmgeo.numerics.jit import remarks
@@ -44,6 +45,7 @@ class Simulation:
         self.output = None if output is None else Path(output)
         self.messages = [*case.notes, *case.warnings]
         self.solver, notes = build(case)
+        self.probes = in_mesh(case.results, case.mesh.origin).probes
         self.messages += [*notes, *remarks()]
         self.threads = self._set_threads(threads or case.n_threads)
         self.critical_time_step = critical_time_step(case, self.field("velocity"))
@@ -175,6 +177,7 @@ class Simulation:
         try:
             action()
         except Unsound as error:
+            error.position = error.position + self.solver.population.zero
             raise Diverged(diagnose(self, error, self._last_stress(error.row))) from error
 
     def _last_stress(self, row):

@@ -30,11 +30,6 @@ def printable(text) -> str:
     return text if len(text) <= LONGEST else text[: LONGEST - 1] + "…"
 
 
-def shown_point(position) -> str:
-    """Return a position (3,) [m] as messages show it."""
-    return f"({', '.join(f'{x:g}' for x in position)}) m"
-
-
 def _count(values, noun):
     return f"{len(values)} {noun}{'s'[: len(values) != 1]}"
 

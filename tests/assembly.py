@@ -30,7 +30,6 @@ def assemble(
     volume=0.125,
     cells=(12, 12, 12),
     cell=(1.0, 1.0, 1.0),
-    origin=(0.0, 0.0, 0.0),
     shape=SHAPES["GIMP"],
     half=(0.25, 0.25, 0.25),
     scheme="USL",
@@ -78,7 +77,7 @@ def assemble(
     if settles:
         fields["effects"] = (*fields.get("effects", ()), KineticDamping().effect())
     return Solver(
-        grid=Grid(Mesh.of(origin, cell, cells), shape.width),
+        grid=Grid(Mesh.of(cell, cells), shape.width),
         sets=sets,
         population=Population(position, size, body, material, None),
         shape=shape,

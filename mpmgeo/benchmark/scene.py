@@ -24,7 +24,7 @@ class Scene(Loops):
         count, cell = configuration.particles, np.array(configuration.cell)
         position = _positions(configuration, placement)
         cells = np.maximum(configuration.cells, np.floor(position.max(axis=0) / cell) + 1)
-        mesh = Mesh.of((0.0, 0.0, 0.0), configuration.cell, cells.astype(int))
+        mesh = Mesh.of(configuration.cell, cells.astype(int))
         self.shape = SHAPES["GIMP"]
         self.grid = Grid(mesh, self.shape.width)
         self.small = count <= SMALL

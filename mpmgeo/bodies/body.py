@@ -7,7 +7,7 @@ from typing import ClassVar
 import numpy as np
 
 from mpmgeo.bodies.cloud import Cloud
-from mpmgeo.parameters import Counts, Vector, parameter
+from mpmgeo.parameters import Counts, Placed, Vector, parameter
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class Body:
 
 
 @dataclass(frozen=True)
-class Filled(Body):
+class Filled(Body, Placed):
     """A geometry that is filled with particles of one material; subclasses `generate` them."""
 
     material_id: int = parameter("Number of the material the body consists of")

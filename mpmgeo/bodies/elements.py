@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-SLACK = 1e-9  # of an element's size, by which points on its faces count as inside
+SLACK = 1e-9  # of an element's size, by which points on its faces count as inside, at least
 NEWTON_STEPS = 12
 
 TETRAHEDRON = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
@@ -81,17 +81,21 @@ class Element:
         jacobian = np.einsum("qak,nkc->nqac", self.slopes(rule.points), nodes)
         return np.linalg.det(jacobian) * rule.weights
 
-    def contains(self, nodes, which, points):
-        """Tell whether points (m, 3) lie in the elements `which` (m,) of nodes (n, k, 3)."""
+    def contains(self, nodes, which, points, resolution=0.0):
+        """Tell whether points (m, 3) lie in the elements `which` (m,) of nodes (n, k, 3).
+
+        `resolution` [m]: how exactly the coordinates are known.
+        """
         with np.errstate(all="ignore"):
             ξ = self._estimate(nodes, which, points)
             size = np.ptp(nodes, axis=1).max(axis=1)[which]
-            is_found = self._refine(ξ, nodes[which], points, size) if not self._is_affine else True
+            slack = np.maximum(SLACK, resolution / size)
+            is_found = self._is_affine or self._refine(ξ, nodes[which], points, slack * size)
             x, y, z = ξ.T
             if self._is_tetrahedron:
-                inside = (x >= -SLACK) & (y >= -SLACK) & (z >= -SLACK) & (x + y + z <= 1 + SLACK)
+                inside = (x >= -slack) & (y >= -slack) & (z >= -slack) & (x + y + z <= 1 + slack)
             else:
-                inside = (abs(x) <= 1 + SLACK) & (abs(y) <= 1 + SLACK) & (abs(z) <= 1 + SLACK)
+                inside = np.abs(ξ).max(axis=1) <= 1 + slack
             return is_found & inside
 
     def _estimate(self, nodes, which, points):
@@ -103,14 +107,14 @@ class Element:
         x, y, z = (inverse[which] * off[:, None]).transpose(2, 1, 0)
         return self.center + (x + y + z).T
 
-    def _refine(self, ξ, nodes, points, size):
+    def _refine(self, ξ, nodes, points, slack):
         """Improve reference points (m, 3) by Newton's method; tell which of them then fit."""
         for _ in range(NEWTON_STEPS):
             jacobian = np.einsum("nak,nkc->nac", self.slopes(ξ), nodes)
             ξ += _solve(jacobian, points - np.einsum("nk,nkc->nc", self.shape(ξ), nodes))
             np.clip(ξ, -3, 3, out=ξ)
         off = points - np.einsum("nk,nkc->nc", self.shape(ξ), nodes)
-        return np.abs(off).max(axis=1) <= SLACK * size
+        return np.abs(off).max(axis=1) <= slack
 
 
 def _solve(matrix, right):

@@ -13,6 +13,9 @@ import numpy as np
 from mpmgeo.bodies.lattice import MOST_POSITIONS
 from mpmgeo.bodies.volume_mesh import Piece
 
+ROUND_OFF = 1e-9
+"""Share of the spacing by which a middle may be off, at least."""
+
 BATCH = 2**16
 """Pairs of element and position that are looked at together."""
 
@@ -20,15 +23,16 @@ BULGE = 0.25
 """How far a quadratic element may reach beyond the box around its nodes, in sizes of that box."""
 
 
-def fill(pieces: list[Piece], start: np.ndarray, spacing: np.ndarray):
+def fill(pieces: list[Piece], start: np.ndarray, spacing: np.ndarray, resolution: float = 0.0):
     """Return position (n, 3) [m] and volume (n,) [m³] of particles that fill the elements.
 
-    `start` (3,): a corner of the boxes [m], below all elements; `spacing` (3,): their edges [m].
-    Raises ValueError if that makes more than a thousand million positions to look at.
+    `start` (3,): a corner of the boxes [m], below all elements; `spacing` (3,): their edges [m];
+    `resolution` [m]: how exactly the coordinates are known. Raises ValueError if that makes more
+    than a thousand million positions to look at.
     """
     volume = np.concatenate([piece.volume for piece in pieces])
     center = np.concatenate([piece.center for piece in pieces])
-    owner, box = _middles(pieces, start, spacing)
+    owner, box = _middles(pieces, start, spacing, resolution)
     home = np.floor((center - start) / spacing).astype(np.int64)
     key, home_key = _keys(box, home)
 
@@ -57,12 +61,13 @@ def _joined(key, center, volume):
     return np.stack(moments, axis=1) / total[:, None], total
 
 
-def _middles(pieces, start, spacing):
+def _middles(pieces, start, spacing, resolution):
     """Return elements (n,), counted through all pieces, and boxes (n, 3) that they hold."""
     found = [(np.empty(0, np.int64), np.empty((0, 3), np.int64))]
     before = 0
     for piece in pieces:
-        found += [(before + e, box) for e, box in _middles_inside(piece, start, spacing)]
+        inside = _middles_inside(piece, start, spacing, resolution)
+        found += [(before + element, box) for element, box in inside]
         before += len(piece.volume)
     return [np.concatenate(column) for column in zip(*found, strict=True)]
 
@@ -79,13 +84,14 @@ def _keys(*boxes):
     return np.split(keys, np.cumsum([len(box) for box in boxes])[:-1])
 
 
-def _middles_inside(piece, start, spacing) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+def _middles_inside(piece, start, spacing, resolution) -> Iterator[tuple[np.ndarray, np.ndarray]]:
     """Yield elements (n,) and the boxes (n, 3) whose middles they contain, in batches."""
     low, high = piece.nodes.min(axis=1), piece.nodes.max(axis=1)
     if not piece.element.is_linear:
         low, high = low - BULGE * (high - low), high + BULGE * (high - low)
-    lowest = np.ceil((low - start) / spacing - 0.5 - 1e-9)
-    extent = np.floor((high - start) / spacing - 0.5 + 1e-9) - lowest + 1
+    slack = np.maximum(ROUND_OFF, resolution / spacing)
+    lowest = np.ceil((low - start) / spacing - 0.5 - slack)
+    extent = np.floor((high - start) / spacing - 0.5 + slack) - lowest + 1
     number = np.prod(np.maximum(extent, 0), axis=1)
     if number.sum() > MOST_POSITIONS:
         raise ValueError(
@@ -103,5 +109,5 @@ def _middles_inside(piece, start, spacing) -> Iterator[tuple[np.ndarray, np.ndar
         box = lowest[element] + np.stack([i, j, k], axis=1)
         few = slice(element[0], element[-1] + 1)
         middle = start + (box + 0.5) * spacing
-        inside = piece.element.contains(piece.nodes[few], element - few.start, middle)
+        inside = piece.element.contains(piece.nodes[few], element - few.start, middle, resolution)
         yield element[inside], box[inside]

@@ -11,11 +11,12 @@ import numpy as np
 
 from mpmgeo.bodies.body import Body
 from mpmgeo.bodies.cloud import Cloud
-from mpmgeo.parameters import Counts, parameter
+from mpmgeo.parameters import Counts, Placed, parameter
+from mpmgeo.positions import resolution
 
 
 @dataclass(frozen=True)
-class Gmsh(Body):
+class Gmsh(Body, Placed):
     """The physical groups of volumes of a Gmsh mesh: each becomes a body of its own."""
 
     type: ClassVar[str] = "gmsh"
@@ -59,7 +60,7 @@ class Gmsh(Body):
     def _mesh(self):
         from mpmgeo.bodies.volume_mesh import VolumeMesh
 
-        return VolumeMesh(self.mesh_file)
+        return VolumeMesh(self.mesh_file, self.zero)
 
     @cached_property
     def _volumes(self):
@@ -127,7 +128,8 @@ class Gmsh(Body):
         if self.particle_distribution == "per_cell":
             from mpmgeo.bodies.filling import fill
 
-            return fill(pieces, start, cell / self.particles_per_direction)
+            known = max(resolution(self.zero, p.nodes.reshape(-1, 3)).max() for p in pieces)
+            return fill(pieces, start, cell / self.particles_per_direction, known)
         parts = [
             _at_gauss_points(piece)
             if self.particle_distribution == "gaussian"

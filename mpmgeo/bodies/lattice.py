@@ -6,6 +6,7 @@ from math import ceil, prod
 import numpy as np
 
 from mpmgeo.bodies.cloud import Cloud
+from mpmgeo.positions import NOWHERE, resolution
 
 ROUND_OFF = 1e-9
 MOST_POSITIONS = 10**9
@@ -16,7 +17,8 @@ class Lattice:
     """Candidate particle positions: `cells` boxes of edges `cell`, `per_cell` positions in each.
 
     All members hold three numbers, one an axis; `start` is the lowest corner [m], `extent` the
-    size that was asked for [m], of which the cells cover at least the whole.
+    size that was asked for [m], of which the cells cover at least the whole, but for `slack` [m],
+    what round-off may add to it.
     """
 
     start: np.ndarray
@@ -24,12 +26,14 @@ class Lattice:
     cell: np.ndarray
     cells: tuple[int, ...]
     per_cell: tuple[int, ...]
+    slack: np.ndarray
 
     @classmethod
-    def over(cls, start, extent, cell, per_cell) -> "Lattice":
-        """Cover a box with whole cells, forgiving round-off in the ratio of the sizes.
+    def over(cls, start, extent, cell, per_cell, zero=NOWHERE) -> "Lattice":
+        """Cover a box with whole cells, forgiving round-off in sizes and in coordinates.
 
-        Raises ValueError if that makes more than a thousand million positions.
+        `zero` (3,) [m]: where `start` counts from. Raises ValueError if that makes more than a
+        thousand million positions.
         """
         ratios = [float(e) / float(c) for e, c in zip(extent, cell, strict=True)]
         number = prod(max(ratio, 1.0) for ratio in ratios) * prod(map(float, per_cell))
@@ -38,9 +42,10 @@ class Lattice:
                 f"the body needs about {number:.3g} particle positions, "
                 f"more than the {MOST_POSITIONS:.0e} that fit"
             )
-        cells = tuple(ceil(ratio * (1 - ROUND_OFF)) for ratio in ratios)
         start, extent, cell = (np.array(list(a), dtype=np.float64) for a in (start, extent, cell))
-        return cls(start, extent, cell, cells, tuple(per_cell))
+        slack = np.maximum(ROUND_OFF * extent, resolution(zero, start, start + extent))
+        cells = tuple(max(1, ceil(n)) for n in (extent - slack) / cell)
+        return cls(start, extent, cell, cells, tuple(per_cell), slack)
 
     @property
     def number(self) -> int:
@@ -84,5 +89,5 @@ class Lattice:
             f"the size along {name}, {self.extent[a]:g} m, is not a multiple of the cell, "
             f"{self.cell[a]:g} m: {self.cells[a]} whole cells make {covered[a]:g} m"
             for a, name in enumerate("xyz")
-            if name in axes and covered[a] > self.extent[a] * (1 + 2 * ROUND_OFF)
+            if name in axes and covered[a] > self.extent[a] + 2 * self.slack[a]
         ]

@@ -19,7 +19,7 @@ class Listing:
         "Only its length counts: the number of particles; absent: that of the positions",
         default=None,
     )
-    position: tuple[Vector, ...] = parameter("Centres of the particles", unit="m")
+    position: tuple[Vector, ...] = parameter("Centres of the particles", unit="m", place=True)
     volume: tuple[float, ...] = parameter("Volumes of the particles", unit="m³", above=0)
     material_id: tuple[int, ...] | None = parameter(
         "Numbers of the particles' materials", default=None

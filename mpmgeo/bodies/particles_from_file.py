@@ -12,11 +12,11 @@ from mpmgeo.bodies.body import Body
 from mpmgeo.bodies.cloud import Cloud
 from mpmgeo.bodies.particle_file import ParticleTable, read_particles
 from mpmgeo.bodies.particles import cubes
-from mpmgeo.parameters import parameter
+from mpmgeo.parameters import Placed, parameter
 
 
 @dataclass(frozen=True)
-class ParticlesFromFile(Body):
+class ParticlesFromFile(Body, Placed):
     """Particles of a JSON file: a list of objects with `position`, `volume` and `material_id`."""
 
     type: ClassVar[str] = "particles_from_file"
@@ -30,7 +30,8 @@ class ParticlesFromFile(Body):
     @cached_property
     def table(self) -> ParticleTable:
         """Return the content of the file; raises ValueError if it is wrong."""
-        return read_particles(self.file, self.material_id)
+        table = read_particles(self.file, self.material_id)
+        return table._replace(position=table.position - self.zero)
 
     @property
     def materials(self) -> dict[int, tuple]:

@@ -10,6 +10,7 @@ from mpmgeo.bodies.body import Filled
 from mpmgeo.bodies.cloud import Cloud
 from mpmgeo.bodies.lattice import ROUND_OFF, Lattice
 from mpmgeo.parameters import Vector, parameter
+from mpmgeo.positions import resolution
 
 
 @dataclass(frozen=True)
@@ -18,7 +19,7 @@ class Polygon2D(Filled):
 
     type: ClassVar[str] = "polygon_2d"
 
-    points: tuple[Vector, ...] = parameter("Corners of the polygon in order", unit="m")
+    points: tuple[Vector, ...] = parameter("Corners of the polygon in order", unit="m", place=True)
     extrude_direction: str = parameter("Axis of the extrusion", choices=("x", "y", "z"))
     extrude_displacement: float = parameter(
         "Length of the extrusion, from the lowest coordinate of the corners upwards",
@@ -45,7 +46,8 @@ class Polygon2D(Filled):
         axes = list(zip(*self.points, strict=True))
         extent = [max(axis) - min(axis) for axis in axes]
         extent[self._along] = self.extrude_displacement
-        return Lattice.over(map(min, axes), extent, 3 * [edge], self.particles_per_direction)
+        start, per_cell = list(map(min, axes)), self.particles_per_direction
+        return Lattice.over(start, extent, 3 * [edge], per_cell, self.zero)
 
     def generate(self, cell: np.ndarray) -> Cloud:
         """Return the particles whose centres lie inside the polygon; `cell` (3,) is in m."""
@@ -56,7 +58,7 @@ class Polygon2D(Filled):
             np.array(self.points, dtype=np.float64)[:, [horizontal, vertical]],
             axes[horizontal],
             axes[vertical],
-            nudge=lattice.cell[0] * ROUND_OFF,
+            nudge=np.maximum(ROUND_OFF * lattice.cell, self._resolution)[[horizontal, vertical]],
         )
         notes = lattice.surplus(self.extrude_direction) + _oversize(lattice.size, cell)
         return lattice.cloud(fastest="x", keep=inside, notes=notes)
@@ -65,7 +67,11 @@ class Polygon2D(Filled):
         """Tell whether all corners lie on one line in the plane of the polygon."""
         plane = np.delete(np.array(self.points, dtype=np.float64), self._along, axis=1)
         size = np.linalg.svd(plane - plane[0], compute_uv=False)
-        return size[1] <= ROUND_OFF * size[0]
+        return size[1] <= max(ROUND_OFF * size[0], self._resolution.max())
+
+    @property
+    def _resolution(self):
+        return resolution(self.zero, self.points)
 
     @property
     def _along(self):
@@ -77,11 +83,13 @@ def contains(corners, horizontal, vertical, nudge) -> np.ndarray:
 
     `corners` (m, 2) are horizontal and vertical coordinates; the points' coordinates broadcast.
     Left and lower edges belong to the polygon, right and upper ones do not, so that polygons with
-    a common edge share no point. `nudge` [m] moves the points right and up: round-off must not
-    decide on which side of an edge they lie. Source: Shimrat (1962), Algorithm 112.
+    a common edge share no point. `nudge` [m], (2,) or one number, moves the points right and up:
+    round-off must not decide on which side of an edge they lie. Source: Shimrat (1962), Algorithm
+    112.
     """
     inside = np.zeros(np.broadcast_shapes(horizontal.shape, vertical.shape), dtype=bool)
-    right, up = horizontal + nudge, vertical + nudge
+    right, up = np.broadcast_to(nudge, 2)
+    right, up = horizontal + right, vertical + up
     for (h, v), (h_before, v_before) in zip(corners, np.roll(corners, 1, axis=0), strict=True):
         if v != v_before:
             spanned = (v > up) != (v_before > up)

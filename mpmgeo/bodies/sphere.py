@@ -17,13 +17,14 @@ class Sphere(Filled):
 
     type: ClassVar[str] = "sphere"
 
-    center: Vector = parameter("Centre of the ball", unit="m")
+    center: Vector = parameter("Centre of the ball", unit="m", place=True)
     diameter: float = parameter("Diameter of the ball", unit="m", above=0)
 
     def lattice(self, cell: np.ndarray) -> Lattice:
         """Return the candidate positions; raises ValueError if there are too many."""
         start = [c - self.diameter / 2 for c in self.center]
-        return Lattice.over(start, np.full(3, self.diameter), cell, self.particles_per_direction)
+        extent, per_cell = np.full(3, self.diameter), self.particles_per_direction
+        return Lattice.over(start, extent, cell, per_cell, self.zero)
 
     def generate(self, cell: np.ndarray) -> Cloud:
         """Return the particles at most one radius from the centre; `cell` (3,) is in m."""

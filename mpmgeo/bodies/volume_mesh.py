@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mpmgeo.bodies.elements import ELEMENTS, Element
+from mpmgeo.positions import NOWHERE, shown
 
 VOLUME = 3
 FOLDED = 0.1
@@ -37,11 +38,12 @@ class VolumeMesh:
     """A mesh file whose volumes have names; `groups` lists them, `other_groups` those of surfaces,
     curves and points.
 
-    Raises ValueError if the file is no mesh that can be read.
+    Positions count from `zero` (3,) [m], not from the (0, 0, 0) of the file. Raises ValueError if
+    the file is no mesh that can be read.
     """
 
-    def __init__(self, path: Path | str):
-        self.path = path
+    def __init__(self, path: Path | str, zero=NOWHERE):
+        self.path, self.zero = path, zero
         self._mesh = _read(path)
         names = self._mesh.field_data.items()
         self._tag = {name: tag for name, (tag, dimension) in names if dimension == VOLUME}
@@ -87,7 +89,7 @@ class VolumeMesh:
             raise ValueError(f"{where} holds elements of type {kind}; supported: {known}")
         if numbers.min() < 0:
             raise ValueError(f"{where} has elements whose nodes are not in the file")
-        nodes = np.asarray(self._mesh.points, float)[numbers]
+        nodes = (np.asarray(self._mesh.points, float) - self.zero)[numbers]
         if not np.isfinite(nodes).all():
             raise ValueError(f"{where} has nodes whose coordinates are not finite")
         element = ELEMENTS[kind]
@@ -98,9 +100,9 @@ class VolumeMesh:
         broken = ~(size > 0) | (np.abs(shares).sum(axis=1) > (1 + 2 * FOLDED) * size)
         if broken.any():
             number, first = np.count_nonzero(broken), int(broken.argmax())
-            near = ", ".join(f"{x:g}" for x in nodes[first].mean(axis=0))
+            near = shown(nodes[first].mean(axis=0), self.zero)
             problem = f"{number} {kind} without volume or folded"
-            raise ValueError(f"{where} has {problem}, one at ({near}) m")
+            raise ValueError(f"{where} has {problem}, one at {near}")
         return Piece(element, nodes, size)
 
 

@@ -92,9 +92,9 @@ def fill(c, ground, mesh, band, corner, out):
     waiting = np.empty(DEPTH, np.int64)
     t = 0
     for b in range(c * len(corner) // CHUNKS, (c + 1) * len(corner) // CHUNKS):
-        ox = mesh.ox + corner[b, 0] * SIDE * mesh.hx
-        oy = mesh.oy + corner[b, 1] * SIDE * mesh.hy
-        oz = mesh.oz + corner[b, 2] * SIDE * mesh.hz
+        ox = corner[b, 0] * SIDE * mesh.hx
+        oy = corner[b, 1] * SIDE * mesh.hy
+        oz = corner[b, 2] * SIDE * mesh.hz
         x, y, z = ox + 1.5 * mesh.hx, oy + 1.5 * mesh.hy, oz + 1.5 * mesh.hz
         t = nearest(ground, x, y, z, t, waiting)
         d = signed_distance(ground, t, x, y, z)

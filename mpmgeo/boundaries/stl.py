@@ -10,8 +10,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mpmgeo.positions import NOWHERE, resolution
+
 HEADING = 84  # bytes before the first triangle, the last four their number
 RECORD = np.dtype([("normal", "<f4", 3), ("corner", "<f4", (3, 3)), ("attribute", "<u2")])
+SINGLE = float(np.finfo(np.float32).eps)  # of coordinates in binary files
 NUMBER = rb"[ \t\r\n]+([^\s]+)"
 FACET = re.compile(rb"\bfacet\b", re.IGNORECASE)
 END_OF_FACET = re.compile(rb"\bend\s?facet\b", re.IGNORECASE)
@@ -21,12 +24,20 @@ END = re.compile(rb"\bend\s?solid\b", re.IGNORECASE)
 
 
 class Triangles(NamedTuple):
-    """Triangles of a file: corner (n, 3, 3) [m], normal (n, 3), zero where none is given, and what
-    the user should know about the file."""
+    """Triangles of a file: corner (n, 3, 3) [m], normal (n, 3), zero where none is given, whether
+    numbers are in single precision, and what the user should know about the file."""
 
     corner: np.ndarray
     normal: np.ndarray
+    is_single: bool
     warnings: tuple[str, ...] = ()
+
+    @property
+    def resolution(self) -> float:
+        """Return how exactly the file holds the coordinates [m]."""
+        if self.is_single:
+            return SINGLE * float(np.abs(self.corner).max())
+        return float(resolution(NOWHERE, self.corner).max())
 
 
 def read_stl(path: Path | str) -> Triangles:
@@ -71,7 +82,7 @@ def _binary(path, content):
         )
     found = np.frombuffer(content, RECORD, count, HEADING)
     warnings = (f"{path}: {size - needed} bytes behind the last triangle",) if size > needed else ()
-    return Triangles(found["corner"].astype(float), found["normal"].astype(float), warnings)
+    return Triangles(found["corner"].astype(float), found["normal"].astype(float), True, warnings)
 
 
 def _ascii(path, content):
@@ -89,7 +100,7 @@ def _ascii(path, content):
     warnings = ()
     if not END.search(content, max(0, content.rfind(b"\n", 0, len(content.rstrip())))):
         warnings = (f"{path}: the last line is not endsolid; the file may be cut short",)
-    return Triangles(corner, normal, warnings)
+    return Triangles(corner, normal, False, warnings)
 
 
 def _numbers(path, words, what):

@@ -14,7 +14,7 @@ import numpy as np
 from mpmgeo.numerics.neighbours import Neighbours
 from mpmgeo.numerics.triangle_tree import EDGE_12, FACE
 
-SINGLE = float(np.finfo(np.float32).eps)  # of coordinates that went through single precision
+JOINED = 1e-9  # edges of a triangle by which copies of its corner may be apart, at least
 FLAT = 1e-12  # height over length below which a triangle is a line
 
 
@@ -35,13 +35,14 @@ class Surface(NamedTuple):
         return Surface(self.corner[chosen], self.normal[chosen], self.rim[chosen], self.notes)
 
 
-def surface_of(corner, normal) -> Surface:
+def surface_of(corner, normal, resolution=0.0) -> Surface:
     """Return the surface of triangles (n, 3, 3) [m] in any order.
 
-    `normal` (n, 3): what a file says, zero for nothing; only compared with the order of corners.
-    Raises ValueError if no triangle has an area.
+    `normal` (n, 3): what a file says, zero for nothing; only compared with the order of corners;
+    `resolution` [m]: how exactly the coordinates are known. Raises ValueError if no triangle has
+    an area.
     """
-    vertex = _joined(corner)
+    vertex = _joined(corner, resolution)
     notes = []
     keep = ~_is_flat(corner, vertex)
     if not keep.any():
@@ -64,7 +65,7 @@ def surface_of(corner, normal) -> Surface:
     return Surface(corner, *_sides(corner, vertex, own, edge, count), tuple(notes))
 
 
-def _joined(corner):
+def _joined(corner, resolution):
     """Return the numbers (n, 3) of the corners, the same for corners as good as equal."""
     x = corner.reshape(-1, 3)
     order = np.lexsort(x.T)
@@ -72,15 +73,26 @@ def _joined(corner):
     number = np.empty(len(x), np.int64)
     number[order] = np.cumsum(fresh) - 1
     x, vertex = x[order[fresh]], number.reshape(-1, 3)
-    tolerance = 2 * SINGLE * float(np.abs(corner).max())
     # only where triangles do not meet exactly can there be corners to join
     edge, count = _edges(vertex)
-    loose = np.unique(vertex[(count == 1)[edge] | np.roll((count == 1)[edge], 1, axis=1)])
+    alone = (count == 1)[edge]
+    loose, rows = np.unique(vertex[alone | np.roll(alone, 1, axis=1)]), alone.any(axis=1)
     lowest = np.arange(len(x))
-    if len(loose) and tolerance > 0:
-        for one, other, _ in Neighbours(x[loose], tolerance).pairs(x[loose]):
-            np.minimum.at(lowest, loose[one], loose[other])
+    longest = _longest(corner[rows], vertex[rows], len(x))[loose]
+    tolerance = np.maximum(2 * resolution, JOINED * longest)
+    if tolerance.max(initial=0.0) > 0:
+        for one, other, distance in Neighbours(x[loose], tolerance.max()).pairs(x[loose]):
+            near = distance <= np.minimum(tolerance[one], tolerance[other])
+            np.minimum.at(lowest, loose[one[near]], loose[other[near]])
     return lowest[vertex]
+
+
+def _longest(corner, vertex, number):
+    """Return for each of a number of corners the longest edge [m] of the triangles around it."""
+    edge = np.linalg.norm(corner - np.roll(corner, -1, axis=1), axis=2).max(axis=1, initial=0.0)
+    longest = np.zeros(number)
+    np.maximum.at(longest, vertex.ravel(), np.repeat(edge, 3))
+    return longest
 
 
 def _cross(corner):

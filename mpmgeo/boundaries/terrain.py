@@ -14,7 +14,7 @@ from typing import ClassVar, NamedTuple
 from mpmgeo.action import Action
 from mpmgeo.boundaries.stl import read_stl
 from mpmgeo.boundaries.surface import Surface, surface_of
-from mpmgeo.parameters import parameter
+from mpmgeo.parameters import Placed, parameter
 
 
 class Symbols(NamedTuple):
@@ -26,7 +26,7 @@ class Symbols(NamedTuple):
 
 
 @dataclass(frozen=True)
-class TerrainContact(Action):
+class TerrainContact(Action, Placed):
     """Contact with a terrain given by triangles, rigid, with Coulomb friction."""
 
     key: ClassVar[str] = "terrain_contact"
@@ -64,16 +64,26 @@ class TerrainContact(Action):
         except ValueError as error:
             yield "stl_mesh", str(error)
 
-    @cached_property
+    @property
     def surface(self) -> Surface:
         """Return the surface of the file; raises ValueError if it cannot be used."""
+        return self._content[0]
+
+    @property
+    def resolution(self) -> float:
+        """Return how exactly the file holds coordinates [m]; raises ValueError as `surface`."""
+        return self._content[1]
+
+    @cached_property
+    def _content(self):
         triangles = read_stl(self.stl_mesh)
+        corner, known = triangles.corner - self.zero, triangles.resolution
         try:
-            surface = surface_of(triangles.corner, triangles.normal)
+            surface = surface_of(corner, triangles.normal, known)
         except ValueError as error:
             raise ValueError(f"{self.stl_mesh}: {error}") from None
         notes = (f"{self.stl_mesh}: {note}" for note in surface.notes)
-        return surface._replace(notes=(*triangles.warnings, *notes))
+        return surface._replace(notes=(*triangles.warnings, *notes)), known
 
     def symbols(self, cell: float) -> Symbols:
         """Return what the kernels use; `cell`: mean cell size [m]."""

@@ -25,7 +25,7 @@ from mpmgeo.output.fields import (
     TERRAIN_FIELDS,
 )
 from mpmgeo.output.probes import PROBES
-from mpmgeo.parameters import Counts, Vector, parameter
+from mpmgeo.parameters import Counts, Placed, Vector, parameter
 from mpmgeo.shapes import SHAPES
 
 Law = reduce(or_, LAWS)
@@ -48,12 +48,14 @@ RESOLUTION = 1e-12
 
 
 @dataclass(frozen=True)
-class Mesh:
+class Mesh(Placed):
     """The regular grid in which everything happens."""
 
     cells_number: Counts = parameter("Number of cells along x, y, z", minimum=1, maximum=2**20)
     cells_dimension: Vector = parameter("Edge lengths of a cell", unit="m", above=0)
-    origin: Vector = parameter("Corner of lowest coordinates", unit="m", default=(0.0, 0.0, 0.0))
+    origin: Vector = parameter(
+        "Corner of lowest coordinates", unit="m", place=True, default=(0.0, 0.0, 0.0)
+    )
     boundary_conditions: BoundaryConditions = parameter(
         "Conditions on the six bounding planes", default=BoundaryConditions()
     )

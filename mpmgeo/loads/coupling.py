@@ -17,7 +17,7 @@ from mpmgeo.action import Action
 from mpmgeo.listed import position_problem, read_entries
 from mpmgeo.numerics.fit import linear_fit
 from mpmgeo.numerics.neighbours import Neighbours
-from mpmgeo.parameters import parameter
+from mpmgeo.parameters import Placed, parameter
 from mpmgeo.values import is_number, shown
 
 RADII = {"nearest": 0.5, "linear": 1.5}
@@ -41,7 +41,7 @@ class Pressures(NamedTuple):
 
 
 @dataclass(frozen=True)
-class HydroMechanicalCoupling(Action):
+class HydroMechanicalCoupling(Action, Placed):
     """Pore pressures that a file gives at points and that the particles keep for the whole run."""
 
     key: ClassVar[str] = "hydro_mechanical_coupling"
@@ -94,7 +94,7 @@ class HydroMechanicalCoupling(Action):
         if not entries:
             raise ValueError(f"{self.pore_pressure_field}: the list is empty")
         return Points(
-            np.array([entry["position"] for entry in entries], float),
+            np.array([entry["position"] for entry in entries], float) - self.zero,
             np.array([entry["pressure"] for entry in entries], float),
         )
 

@@ -8,7 +8,8 @@ import numpy as np
 from mpmgeo.action import Action
 from mpmgeo.effect import Effect
 from mpmgeo.naming import GHOSTS
-from mpmgeo.parameters import Vector, parameter
+from mpmgeo.parameters import Placed, Vector, parameter
+from mpmgeo.positions import resolution
 from mpmgeo.state.grid import keys_of
 from mpmgeo.state.layout import NODES, SIDE, inner, place, volume
 
@@ -19,7 +20,7 @@ REACH = 1.5
 
 
 @dataclass(frozen=True)
-class PointLoad(Action):
+class PointLoad(Action, Placed):
     """A constant force on the node nearest to a point."""
 
     key: ClassVar[str] = "nodal_point_load"
@@ -27,32 +28,33 @@ class PointLoad(Action):
     may_be_list: ClassVar[bool] = True
     in_mesh: ClassVar[tuple[str, ...]] = ("position",)
 
-    position: Vector = parameter("Point whose nearest node carries the force", unit="m")
+    position: Vector = parameter("Point whose nearest node carries the force", unit="m", place=True)
     force: Vector = parameter("Force", unit="N")
 
-    def node(self, origin: np.ndarray, cell: np.ndarray) -> np.ndarray:
+    def node(self, cell: np.ndarray) -> np.ndarray:
         """Return the index (3,) of the nearest node, counted with two ghost layers.
 
-        `origin` (3,) is the lower corner of the mesh [m], `cell` (3,) the size of its cells [m];
-        halfway between two nodes the upper one is taken.
+        The position is that in the mesh, `cell` (3,) the size of its cells [m]; halfway between two
+        nodes the upper one is taken.
         """
-        distance = (np.array(self.position) - origin) / cell
-        return np.floor(distance + 0.5 + ROUND_OFF).astype(np.int64) + GHOSTS
+        slack = np.maximum(ROUND_OFF, resolution(self.zero, self.position) / cell)
+        return np.floor(np.array(self.position) / cell + 0.5 + slack).astype(np.int64) + GHOSTS
 
     def idle(self, position: np.ndarray, body: np.ndarray, cell: np.ndarray) -> str | None:
         """Return that no particle is near, None if one is."""
         near = (np.abs(position - self.position) / cell < REACH).all(axis=1)
         if near.any():
             return None
-        return f"no particle near {list(self.position)}; the force has no effect until one comes"
+        place = np.add(self.position, self.zero).tolist()
+        return f"no particle near {place}; the force has no effect until one comes"
 
     @classmethod
     def effect(cls, loads, mesh):
         """Return what puts the forces on their nodes, None without loads."""
         if not loads:
             return None
-        origin, cell = np.array(mesh[:3]), np.array(mesh[3:6])
-        nodes = [load.node(origin, cell) - GHOSTS for load in loads]
+        cell = np.array([mesh.hx, mesh.hy, mesh.hz])
+        nodes = [load.node(cell) - GHOSTS for load in loads]
         return PointLoads(nodes, [load.force for load in loads])
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from mpmgeo.action import Action
 from mpmgeo.loads.table import read_table
 from mpmgeo.naming import PLANES, name_problems
-from mpmgeo.parameters import Components, Vector, parameter
+from mpmgeo.parameters import Components, Placed, Vector, parameter
 from mpmgeo.region import turned, within
 
 
@@ -52,7 +52,7 @@ class Motion:
 
 
 @dataclass(frozen=True)
-class PrescribedVelocity(Action):
+class PrescribedVelocity(Action, Placed):
     """A velocity that particles or the nodes of a plane keep, whatever the forces."""
 
     key: ClassVar[str] = "prescribed_velocity"
@@ -64,10 +64,11 @@ class PrescribedVelocity(Action):
     point_p1: Vector | None = parameter(
         "Corner of lowest coordinates of a box; the particles that start in it are meant",
         unit="m",
+        place=True,
         default=None,
     )
     point_p2: Vector | None = parameter(
-        "Corner of highest coordinates of the box", unit="m", default=None
+        "Corner of highest coordinates of the box", unit="m", place=True, default=None
     )
     plane: str | None = parameter("Plane of the mesh", choices=PLANES, default=None)
     velocity: Components | None = parameter(
@@ -126,7 +127,7 @@ class PrescribedVelocity(Action):
             return np.zeros(len(position), bool)
         if self.body is not None:
             return body == self.body
-        return within(self.point_p1, self.point_p2, position)
+        return within(self.point_p1, self.point_p2, position, self.zero)
 
     def idle(self, position: np.ndarray, body: np.ndarray, cell: np.ndarray) -> str | None:
         """Return that neither a plane nor a particle is meant, None if one is."""

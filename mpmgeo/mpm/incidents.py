@@ -4,17 +4,23 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mpmgeo.positions import NOWHERE, shown
+
 
 class Departure(NamedTuple):
     """Particles that left the mesh in one step."""
 
     time: float  # [s]
     rows: np.ndarray
-    position: np.ndarray  # (3,) of the first [m]
+    position: np.ndarray  # (3,) of the first in the mesh [m]
 
 
 class Departures(list):
-    """All departures of a run."""
+    """All departures of a run; positions count from `zero` (3,) [m] in the user's coordinates."""
+
+    def __init__(self, zero=NOWHERE):
+        super().__init__()
+        self.zero = zero
 
     def add(self, time, rows, position):
         """Note that particles in `rows` left at a time [s], the first of them at a position [m]."""
@@ -23,10 +29,10 @@ class Departures(list):
     def first(self):
         """Return what to tell of the first one, a list of messages."""
         first = self[0]
-        where = ", ".join(f"{x:.4g}" for x in first.position)
+        where = shown(first.position, self.zero, digits=4)
         return [
             "particles leave the mesh and take no further part: the first is particle "
-            f"{first.rows[0]}, at ({where}) m after {first.time:.6g} s"
+            f"{first.rows[0]}, at {where} after {first.time:.6g} s"
         ]
 
     def held(self):

@@ -52,7 +52,7 @@ class Solver(Stages):
     def __post_init__(self):
         self.count = len(self.population.position)
         self.small = self.count <= SMALL
-        self.departures = Departures()
+        self.departures = Departures(self.population.zero)
         self.reactions = None  # (6 + tools, 3) [N] of planes and tools when last measured
         self.peak_energy = None  # before the particles were stopped in the last step, if they were
         self.gone = self.count  # how many particles are not where the order says

@@ -52,10 +52,9 @@ def grid_arrays(solver, node_id, keys):
 
 
 def _position(mesh, nodes, node_id):
-    """Return the positions (n, 3) [m] of nodes."""
+    """Return the positions (n, 3) [m] of nodes in coordinates of the mesh."""
     i, j, k = _index(nodes, node_id)
-    cell, origin = [mesh.hx, mesh.hy, mesh.hz], [mesh.ox, mesh.oy, mesh.oz]
-    return (np.stack([i, j, k], axis=-1) - GHOSTS) * cell + origin
+    return (np.stack([i, j, k], axis=-1) - GHOSTS) * [mesh.hx, mesh.hy, mesh.hz]
 
 
 def _index(nodes, node_id):

@@ -141,7 +141,7 @@ def histories_of(simulation, folder):
     """
     made = [
         History(folder / "probes" / f"{probe.name}.csv", probe.every, probe.sampler(simulation))
-        for probe in simulation.case.results.probes
+        for probe in simulation.probes
     ]
     for number, entry in enumerate(simulation.case.prescribed_velocity):
         path = folder / "reactions" / f"{entry.name}.csv"

@@ -26,7 +26,7 @@ _NAMES = {
     "velocity_fluid": "Velocity Fluid",
     "porosity": "Porosity",
 }
-_ARRAYS = {"position": "x", "velocity": "v", "volume": "V", "stress": "stress"}
+_ARRAYS = {"velocity": "v", "volume": "V", "stress": "stress"}
 TENSORS = {"stress": "Stress", "strain": "Strain"}
 _VECTORS = ("position", "velocity", "displacement", "external_force", "velocity_fluid")
 WITH_STRAIN = ("strain", "deviatoric_strain")
@@ -161,6 +161,7 @@ def _size_of_deviator(tensor):
 
 
 _VALUES = {
+    "position": lambda solver, s, at: s.x[at] + solver.population.zero,
     "id": _id,
     "material": lambda solver, s, at: solver.population.material[s.row[at]].astype(np.uint32),
     "body": lambda solver, s, at: solver.population.body[s.row[at]],

@@ -108,7 +108,8 @@ class ResultFiles:
             "stl_density_levelset": lambda: solver.ground.density_at(solver, centre),
             "stl_normal": lambda: normal,
         }
-        write_points(path, centre, {key: values[key]() for key in self.results.terrain_fields})
+        arrays = {key: values[key]() for key in self.results.terrain_fields}
+        write_points(path, centre + solver.population.zero, arrays)
         self.terrain.add(label, path)
         self.terrain.write()
 

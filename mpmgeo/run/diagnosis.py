@@ -4,6 +4,8 @@ from math import hypot
 
 import numpy as np
 
+from mpmgeo.positions import shown
+
 
 def diagnose(simulation, error, last_stress):
     """Return a message about the particle that an Unsound error names.
@@ -11,13 +13,13 @@ def diagnose(simulation, error, last_stress):
     `last_stress` (6,) is the particle's in the last sound state [Pa], or None without one.
     """
     dt = simulation.time_step
-    numbers = ", ".join(f"{x:.4g}" for x in error.position)
+    where = shown(error.position, digits=4)
     stress = error.stress if last_stress is None else last_stress
     stress = ", ".join(f"{s:.4g}" for s in stress)
     speed = hypot(*error.velocity)  # squares of such speeds may overflow
     return (
         f"the run diverged in step {error.step} (time {error.time:.6g} s): particle {error.row} of "
-        f"material {error.material} at ({numbers}) m has a speed of {speed:.4g} m/s, its last "
+        f"material {error.material} at {where} has a speed of {speed:.4g} m/s, its last "
         f"stress was ({stress}) Pa; {_cause(simulation, dt)}; the files show the last sound state"
     )
 

@@ -1,8 +1,9 @@
 """The background grid: blocks of 4³ nodes, of which only those exist that particles reach.
 
-Node index I is at origin + I·cell; ghost layers have negative indices and need no storage of their
-own. A block is named by its *corner* c = I >> 2 per axis and by the key of that corner, sortable
-and unique. *Owner* blocks hold particles and own a tile; *active* blocks hold nodes under a tile.
+Coordinates are those of the mesh: node index I is at I·cell. Ghost layers have negative indices and
+need no storage of their own. A block is named by its *corner* c = I >> 2 per axis and by the key of
+that corner, sortable and unique. *Owner* blocks hold particles and own a tile; *active* blocks hold
+nodes under a tile.
 
     above[b, o]   active block that lies o blocks up from owner b   (o = 0 is the owner itself)
     below[a, o]   owner whose tile covers active block a from o blocks down, or −1
@@ -27,11 +28,8 @@ KEY_SHIFT = 1 << (KEY_BITS - 1)
 
 
 class Mesh(NamedTuple):
-    """Symbols of the mesh for kernels: origin [m], cell sizes [m], their inverses, cell counts."""
+    """Symbols of the mesh for kernels: cell sizes [m], their inverses, cell counts."""
 
-    ox: float
-    oy: float
-    oz: float
     hx: float
     hy: float
     hz: float
@@ -43,10 +41,10 @@ class Mesh(NamedTuple):
     nz: int
 
     @classmethod
-    def of(cls, origin, cell, cells):
-        """Return the symbols of a mesh of `cells` cells of size `cell` [m] from `origin` [m] on."""
+    def of(cls, cell, cells):
+        """Return the symbols of a mesh of `cells` cells of size `cell` [m]."""
         inverse = [1.0 / h for h in cell]
-        return cls(*map(float, origin), *map(float, cell), *inverse, *map(int, cells))
+        return cls(*map(float, cell), *inverse, *map(int, cells))
 
 
 def keys_of(corner):

@@ -23,12 +23,13 @@ ARRAYS = (
 class Population(NamedTuple):
     """What is fixed about all particles of a case, in row order."""
 
-    position: np.ndarray  # (n, 3) initial position [m]
+    position: np.ndarray  # (n, 3) initial position in the mesh [m]
     size: np.ndarray  # (n, 3) edge lengths [m]
     body: np.ndarray  # (n,) body number, from 1
     material: np.ndarray  # (n,) material id
     force: np.ndarray | None  # (n, 3) constant load beside gravity [N]
     id: np.ndarray | None = None  # (n,) number in order of creation; None: the row
+    zero: tuple = (0.0, 0.0, 0.0)  # where the positions count from, in the user's coordinates [m]
 
 
 @dataclass
@@ -37,7 +38,7 @@ class ParticleSet:
 
     law: NamedTuple  # symbols of the material law
     row: np.ndarray  # (n,)
-    x: np.ndarray  # (n, 3) position [m]
+    x: np.ndarray  # (n, 3) position in the mesh [m]
     v: np.ndarray  # (n, 3) velocity [m/s]
     m: np.ndarray  # (n,) mass [kg]
     V: np.ndarray  # (n,) volume [m³]

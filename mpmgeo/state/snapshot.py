@@ -13,7 +13,7 @@ from typing import BinaryIO, NamedTuple
 
 import numpy as np
 
-FORMAT = 1
+FORMAT = 2
 QUICK = 1
 """Level of compression: higher ones take several times as long and save little."""
 

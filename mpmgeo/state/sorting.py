@@ -37,19 +37,19 @@ OPEN = Walls()
 
 
 @inlined
-def _between(x, origin, cell, cells, lower, upper):
+def _between(x, cell, cells, lower, upper):
     """Return a coordinate, or a place just within the wall that it passed."""
-    if lower and x < origin:
-        return origin + INSET * cell
-    if upper and x > origin + cells * cell:
-        return origin + (cells - INSET) * cell
+    if lower and x < 0.0:
+        return INSET * cell
+    if upper and x > cells * cell:
+        return (cells - INSET) * cell
     return x
 
 
 @inlined
-def _corner(x, origin, inverse, cells, reach):
+def _corner(x, inverse, cells, reach):
     """Return the block corner along an axis, −KEY_SHIFT outside the mesh or for NaN."""
-    g = (x - origin) * inverse
+    g = x * inverse
     if not (g >= 0.0 and g <= cells):
         return -KEY_SHIFT
     return int(np.floor(g - reach)) >> 2
@@ -71,9 +71,9 @@ def _index(keys, key):
 @inlined
 def _corners(mesh, reach, x, p):
     """Return the block corner of a particle's first node; see `_corner`."""
-    i = _corner(x[p, 0], mesh.ox, mesh.ix, mesh.nx, reach)
-    j = _corner(x[p, 1], mesh.oy, mesh.iy, mesh.ny, reach)
-    k = _corner(x[p, 2], mesh.oz, mesh.iz, mesh.nz, reach)
+    i = _corner(x[p, 0], mesh.ix, mesh.nx, reach)
+    j = _corner(x[p, 1], mesh.iy, mesh.ny, reach)
+    k = _corner(x[p, 2], mesh.iz, mesh.nz, reach)
     return i, j, k
 
 
@@ -88,9 +88,9 @@ def locate(c, mesh, walls, reach, chunk, start, keys, x, target):
             i, j, k = _corners(mesh, reach, x, p)
             if min(i, j, k) == -KEY_SHIFT:
                 w = walls
-                x[p, 0] = _between(x[p, 0], mesh.ox, mesh.hx, mesh.nx, w.x0, w.xn)
-                x[p, 1] = _between(x[p, 1], mesh.oy, mesh.hy, mesh.ny, w.y0, w.yn)
-                x[p, 2] = _between(x[p, 2], mesh.oz, mesh.hz, mesh.nz, w.z0, w.zn)
+                x[p, 0] = _between(x[p, 0], mesh.hx, mesh.nx, w.x0, w.xn)
+                x[p, 1] = _between(x[p, 1], mesh.hy, mesh.ny, w.y0, w.yn)
+                x[p, 2] = _between(x[p, 2], mesh.hz, mesh.nz, w.z0, w.zn)
                 i, j, k = _corners(mesh, reach, x, p)
             if min(i, j, k) == -KEY_SHIFT:
                 target[p] = OUTSIDE

@@ -26,7 +26,6 @@ ZERO = (0.0, 0.0, 0.0)
 class Box(NamedTuple):
     """The mesh, and how many rows of nodes the dense grid has around it."""
 
-    origin: tuple
     cell: tuple
     cells: tuple
     ghosts: int
@@ -61,7 +60,7 @@ def add(field, n, a):
 def stencil_along(axis, shape, box, half, x, p):
     """Return the first node of particle p along an axis, its weights and slopes per cell."""
     S = width(shape)
-    g = (x[p, axis] - box.origin[axis]) / box.cell[axis]
+    g = x[p, axis] / box.cell[axis]
     first = floor(g - 0.5 * (S - 2))
     return first + box.ghosts, stencil(shape, g - first - 0.5 * (S - 1), half[p, axis], None)
 
@@ -185,7 +184,7 @@ def leave(box, x, active):
     left = 0
     for p in range(len(x)):
         for c in range(3):
-            g = (x[p, c] - box.origin[c]) / box.cell[c]
+            g = x[p, c] / box.cell[c]
             if active[p] and not (g >= 0.0 and g <= box.cells[c]):
                 active[p] = False
                 left += 1
@@ -221,7 +220,7 @@ class PlainSolver:
         self.local = solver.damping[0].α if solver.damping else None
         self.cutoff = solver.cutoff
         mesh = solver.grid.mesh
-        self.box = Box(mesh[:3], mesh[3:6], mesh[9:], ghosts=(width(solver.shape) + 1) // 2)
+        self.box = Box(mesh[:3], mesh[6:], ghosts=(width(solver.shape) + 1) // 2)
         self.free = free_components(self.box, solver.planes)
         self.M = np.zeros(self.free.shape[:3])
         self.P, self.F, self.U, self.A = (np.zeros_like(self.free) for _ in range(4))

@@ -164,7 +164,7 @@ def test_nodes_carry_the_mass_and_momentum():
     assert nodes.mass.sum() == pytest.approx(mass.sum()) and (nodes.mass > 0).all()
     assert nodes.mass @ nodes.velocity == pytest.approx(mass @ velocity)
     assert nodes.position == pytest.approx((nodes.index - 2) * 0.5 + [-0.25, 0.0, 0.5])
-    centre = simulation.solver.population.position
+    centre = simulation.solver.population.position + case["mesh"]["origin"]
     assert nodes.mass @ nodes.position == pytest.approx(mass @ centre)
     assert len(np.unique(nodes.index, axis=0)) == len(nodes.index)
     assert nodes.index.min() >= 0

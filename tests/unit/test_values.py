@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from mpmgeo.values import is_number, shown, shown_point
+from mpmgeo.values import is_number, shown
 
 
 @pytest.mark.parametrize(
@@ -42,7 +42,3 @@ def test_numbers(value):
 @pytest.mark.parametrize("value", [True, "1", None, math.nan, math.inf, 1.1e100, 10**400, [1]])
 def test_what_is_no_number(value):
     assert not is_number(value)
-
-
-def test_points_show_their_unit():
-    assert shown_point([0.5, 1, 2e-9]) == "(0.5, 1, 2e-09) m"

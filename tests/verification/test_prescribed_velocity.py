@@ -162,5 +162,5 @@ def test_planes_sheared_against_each_other():
 def test_a_case_without_pays_nothing():
     solver = simulate(column(time=1.0)).solver
     assert solver.effect("tools") is None
-    assert solver.measured == ()
+    assert solver.effect("reactions") is None
     assert len(solver.sets) == 1

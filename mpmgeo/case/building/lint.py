@@ -4,7 +4,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from mpmgeo.case.coordinates import in_mesh
 from mpmgeo.case.spec import ACTIONS
+from mpmgeo.positions import shown
+from mpmgeo.region import within
 
 CELLS_PER_WAVELENGTH = 10
 """Cells that a wave needs to travel without losing its shape."""
@@ -15,17 +18,21 @@ SIGNIFICANT = 0.99
 VALUES_PER_PERIOD = 4
 """Values of a record, and time steps, that a wave needs not to be lost between them."""
 
+COARSE = 0.01
+"""Share of a cell to which the corners of a terrain should be known."""
+
 
 def lint(simulation) -> list[str]:
     """Return warnings, one sentence each, about a simulation that has not started yet."""
-    case = simulation.case
-    position, body = simulation.field("position"), simulation.field("body")
+    case = in_mesh(simulation.case, simulation.case.mesh.origin)
+    position, body = simulation.field("position") - case.mesh.zero, simulation.field("body")
     return [
         *_time_step(simulation),
         *_outside(position, case.mesh),
         *_empty_bodies(case, body),
         *_actions(case, position, body),
         *_probes(case),
+        *_terrain(case),
         *_record(case, simulation.time_step),
     ]
 
@@ -37,13 +44,13 @@ def _time_step(simulation) -> Iterator[str]:
 
 
 def _outside(position, mesh) -> Iterator[str]:
-    outside = ((position < mesh.origin) | (position > mesh.upper)).any(axis=1)
+    outside = ~within(mesh.origin, mesh.upper, position, mesh.zero)
     if outside.any():
         first = int(outside.argmax())
-        where = ", ".join(f"{x:g}" for x in position[first])
+        where = shown(position[first], mesh.zero)
         yield (
             f"{np.count_nonzero(outside)} of {len(position)} particles start outside the mesh and "
-            f"take no part, the first of them row {first} at ({where}) m"
+            f"take no part, the first of them row {first} at {where}"
         )
 
 
@@ -71,10 +78,22 @@ def _actions(case, position, body) -> Iterator[str]:
 def _probes(case) -> Iterator[str]:
     for probe in case.results.probes:
         points = np.array(getattr(probe, "points", ()), float).reshape(-1, 3)
-        outside = ((points < case.mesh.origin) | (points > case.mesh.upper)).any(axis=1)
-        for point in points[outside]:
+        inside = within(case.mesh.origin, case.mesh.upper, points, case.mesh.zero)
+        for point in points[~inside]:
             where = f"results.probes, {probe.name}"
-            yield f"{where}: the point {point.tolist()} is outside the mesh"
+            yield f"{where}: the point {(point + case.mesh.zero).tolist()} is outside the mesh"
+
+
+def _terrain(case) -> Iterator[str]:
+    terrain = case.terrain_contact
+    if terrain is None:
+        return
+    known, cell = terrain.resolution, min(case.mesh.cells_dimension)
+    if known > COARSE * cell:
+        yield (
+            f"{terrain.stl_mesh}: the file holds its coordinates to {known:.2g} m only, cells are "
+            f"{cell:g} m; move it towards (0, 0, 0), or write it as a text with all digits"
+        )
 
 
 def _record(case, time_step) -> Iterator[str]:

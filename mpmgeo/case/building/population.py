@@ -8,8 +8,8 @@ from mpmgeo.state.particles import Population
 def populate(case, notes):
     """Return the population of a case, its velocities (n, 3) [m/s] and its laws (n,).
 
-    The laws are positions in `case.materials`. Notes on the bodies are added to `notes`. Raises
-    ValueError for a file or geometry that cannot be used.
+    The case is in coordinates of the mesh; the laws are positions in `case.materials`. Notes on the
+    bodies are added to `notes`. Raises ValueError for a file or geometry that cannot be used.
     """
     cell = np.array(case.mesh.cells_dimension)
     made = [(body, cloud) for body in case.body if body.active for cloud in body.clouds(cell)]
@@ -29,6 +29,7 @@ def populate(case, notes):
         material=np.concatenate(material).astype(np.int64),
         force=force,
         id=_creation(listed),
+        zero=case.mesh.zero,
     )
     velocity = np.repeat([body.initial_velocity for body in bodies], counts, axis=0)
     return population, velocity, _laws(case.materials, population.material, listed)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mpmgeo.values import shown_point
+from mpmgeo.positions import shown
 
 
 def bind_pressure(case, position, notes):
@@ -17,7 +17,7 @@ def bind_pressure(case, position, notes):
     found = coupling.pressures(position, cell, last=case.compatibility is not None)
     idle = np.flatnonzero(~found.matched)
     if len(idle):
-        where = shown_point(coupling.points.position[idle[0]])
+        where = shown(coupling.points.position[idle[0]], coupling.zero)
         notes.append(
             f"hydro_mechanical_coupling: {len(idle)} of {len(found.matched)} points are near no "
             f"particle, the first of them entry {idle[0] + 1} at {where}"
@@ -27,6 +27,6 @@ def bind_pressure(case, position, notes):
         notes.append(
             f"hydro_mechanical_coupling: {len(dry)} of {len(position)} particles are near no point "
             f"and keep the pore pressure 0, the first of them row {dry[0]} at "
-            f"{shown_point(position[dry[0]])}"
+            f"{shown(position[dry[0]], coupling.zero)}"
         )
     return found.pressure

@@ -7,6 +7,7 @@ from mpmgeo.case.building.population import populate
 from mpmgeo.case.building.sets import load_stress, particle_sets
 from mpmgeo.case.building.terrain import bind_terrain
 from mpmgeo.case.building.time_step import time_step
+from mpmgeo.case.coordinates import in_mesh
 from mpmgeo.damping import LocalDamping
 from mpmgeo.loads import LOADS
 from mpmgeo.mpm.effects.reactions import Reactions
@@ -24,8 +25,9 @@ def build(case):
     Raises ValueError for a record or geometry that cannot be used.
     """
     notes = []
+    case = in_mesh(case, case.mesh.origin)
     population, velocity, law = populate(case, notes)
-    mesh = Mesh.of(case.mesh.origin, case.mesh.cells_dimension, case.mesh.cells_number)
+    mesh = Mesh.of(case.mesh.cells_dimension, case.mesh.cells_number)
     shape = SHAPES[case.shape_function]
     legacy = case.compatibility is not None
     damping, early = _damping(case)

@@ -4,7 +4,7 @@ import numpy as np
 
 from mpmgeo.boundaries.distance import Ground
 from mpmgeo.mpm.terrain.contact import Contact, ContactAsMPMGeomechanics
-from mpmgeo.values import shown_point
+from mpmgeo.positions import shown
 
 RIM = 0.01  # cells by which a point may be beyond the border of a terrain
 MARGIN = 4  # cells around the mesh in which distances are needed
@@ -25,15 +25,15 @@ def bind_terrain(case, mesh, width, population, notes):
     if not len(surface.corner):
         low, high = terrain.surface.corner.min(axis=(0, 1)), terrain.surface.corner.max(axis=(0, 1))
         raise ValueError(
-            f"{terrain.stl_mesh}: no triangle in the mesh, {shown_point(case.mesh.origin)} to "
-            f"{shown_point(case.mesh.upper)}; the surface reaches from {shown_point(low)} to "
-            f"{shown_point(high)}"
+            f"{terrain.stl_mesh}: no triangle in the mesh, {shown(case.mesh.origin, terrain.zero)} "
+            f"to {shown(case.mesh.upper, terrain.zero)}; the surface reaches from "
+            f"{shown(low, terrain.zero)} to {shown(high, terrain.zero)}"
         )
     cell = sum(case.mesh.cells_dimension) / 3
     symbols = terrain.symbols(cell)
     around = surface if legacy else _meeting(case, terrain.surface, symbols.D + MARGIN * cell)
     box = (case.mesh.origin, case.mesh.upper)
-    ground = Ground.of(around, *box, RIM * cell, by_plane=legacy)
+    ground = Ground.of(around, *box, max(RIM * cell, terrain.resolution), by_plane=legacy)
     kind = ContactAsMPMGeomechanics if legacy else Contact
     contact = kind(symbols, surface, ground, mesh, width)
     _look_below(terrain, contact, population, legacy, notes)
@@ -67,10 +67,10 @@ def _look_below(terrain, contact, population, legacy, notes):
     below = np.flatnonzero(contact.distance(position) < -0.5 * size.max(axis=1))
     if not len(below):
         return
+    where = shown(position[below[0]], terrain.zero)
     message = (
         f"{terrain.stl_mesh}: {len(below)} of {len(position)} particles begin below the surface, "
-        f"one at {shown_point(position[below[0]])}; the outside of a triangle is where its corners "
-        "run anticlockwise"
+        f"one at {where}; the outside of a triangle is where its corners run anticlockwise"
     )
     if 2 * len(below) > len(position) and not legacy:
         raise ValueError(f"{message}: is the surface inside out?")

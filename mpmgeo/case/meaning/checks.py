@@ -1,5 +1,7 @@
 """What only the parts of a case together can show to be impossible, or unlikely to be meant."""
 
+import numpy as np
+
 from mpmgeo.boundaries.terrain import TerrainContact
 from mpmgeo.case.kinds import containers
 from mpmgeo.case.meaning.bodies import check_bodies, check_materials
@@ -7,10 +9,11 @@ from mpmgeo.case.meaning.phases import check_phases, note_idle
 from mpmgeo.case.meaning.steps import check_steps
 from mpmgeo.case.spec import ACTIONS, Case
 from mpmgeo.loads import BaseAcceleration, PrescribedVelocity
+from mpmgeo.positions import resolution
 from mpmgeo.values import shown
 
 SLACK = 1e-9
-"""Share of a cell by which a position may lie outside the mesh through round-off."""
+"""Share of a cell by which a position may lie outside the mesh through round-off, at least."""
 
 
 def check(draft, report):
@@ -44,8 +47,11 @@ def _check_points(draft, report):
 
 
 def _is_inside(position, mesh):
-    axes = zip(position, mesh.origin, mesh.upper, mesh.cells_dimension, strict=True)
-    return all(low - SLACK * h <= x <= high + SLACK * h for x, low, high, h in axes)
+    slack = np.maximum(
+        SLACK * np.array(mesh.cells_dimension), resolution(mesh.zero, mesh.origin, mesh.upper)
+    )
+    low, high = mesh.origin - slack, mesh.upper + slack
+    return bool(((low <= position) & (position <= high)).all())
 
 
 def _check_files(draft, report):

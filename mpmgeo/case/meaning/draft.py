@@ -8,6 +8,7 @@ from dataclasses import MISSING
 from pathlib import Path
 from typing import NamedTuple
 
+from mpmgeo.case.coordinates import reading_in_mesh
 from mpmgeo.case.kinds import Kind, declared, word_of
 from mpmgeo.case.spec import Case
 from mpmgeo.values import is_number, shown
@@ -61,6 +62,10 @@ class Draft:
     def whole(self) -> Part:
         """Return the part that is the whole case."""
         return self._parts[()]
+
+    def at(self, *path) -> Part | None:
+        """Return the part at a path, None without."""
+        return self._parts.get(path)
 
     def of(self, *path) -> list[Part]:
         """Return the part at a path, or the entries of a list of parts there, in order."""
@@ -145,7 +150,7 @@ class _Maker:
 
     def _tried(self, cls, part):
         """Return a part with its object, unless that has problems."""
-        made, problems = cls(**part.values), {}
+        made, problems = self._reading(cls(**part.values)), {}
         for key, message in made.problems() if hasattr(made, "problems") else ():
             problems.setdefault(key, []).append(message)
         for key, messages in problems.items():
@@ -155,6 +160,13 @@ class _Maker:
         for key, message in made.remarks() if hasattr(made, "remarks") else ():
             self.report.warn(part.at(key), message)
         return part._replace(made=made)
+
+    def _reading(self, made):
+        """Return an object such that it reads positions in files as those of the mesh."""
+        mesh = self.draft.at("mesh")  # declared, so added, before all that reads positions
+        if mesh is None or mesh.made is None:
+            return made
+        return reading_in_mesh(made, mesh.made.origin)
 
     def _file(self, name, path):
         folders = dict.fromkeys((self.folder, Path.cwd()))

@@ -47,9 +47,9 @@ def _half_size(half, p):
 def block_origin(mesh, corner):
     """Return the position of the first node of a block."""
     return pack4(
-        mesh.ox + corner[0] * SIDE * mesh.hx,
-        mesh.oy + corner[1] * SIDE * mesh.hy,
-        mesh.oz + corner[2] * SIDE * mesh.hz,
+        corner[0] * SIDE * mesh.hx,
+        corner[1] * SIDE * mesh.hy,
+        corner[2] * SIDE * mesh.hz,
         0.0,
     )
 

@@ -20,7 +20,8 @@ CAUTION = 2.0  # for what contact does to the speeds, and for bends of the groun
 class Contact(Effect):
     """Contact with a ground that may move: changes the nodes, then the positions.
 
-    `symbols`: μ, k and D; `offset` (3,) [m]: how far the ground has moved.
+    `symbols`: μ, k and D; `surface`, `ground`: in coordinates of the mesh, where they lie at the
+    start; `offset` (3,) [m]: how far the ground has moved since, the same in any coordinates.
     """
 
     name = "ground"
@@ -111,7 +112,10 @@ class Contact(Effect):
         self.offset = tuple(u + dt * v for u, v in zip(self.offset, motion.after, strict=True))
 
     def distance(self, x):
-        """Return the signed distances (n,) [m] of points (n, 3) [m] to the ground as it lies."""
+        """Return the signed distances (n,) [m] of points (n, 3) [m] to the ground as it lies.
+
+        The points are in coordinates of the mesh.
+        """
         out = np.empty(len(x))
         distances(ALONE, self.ground, np.ascontiguousarray(x) - self.offset, out)
         return out
@@ -121,11 +125,14 @@ class Contact(Effect):
         return nodal_density(solver)
 
     def density_at(self, solver, x):
-        """Return that share (n,) at points (n, 3) [m]."""
+        """Return that share (n,) at points (n, 3) [m] in coordinates of the mesh."""
         return density_at(solver, x)
 
     def triangles(self):
-        """Return centres (n, 3) [m] and normals (n, 3) of the triangles as they lie."""
+        """Return centres (n, 3) [m] and normals (n, 3) of the triangles as they lie.
+
+        The centres are in coordinates of the mesh.
+        """
         corner, normal, _, _ = self.surface
         return corner.mean(axis=1) + self.offset, normal[:, FACE]
 

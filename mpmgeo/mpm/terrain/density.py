@@ -47,10 +47,10 @@ def nodal_density(solver):
 
 
 def density_at(solver, x):
-    """Return the density (n,) [-] at points x (n, 3) [m], linear between the nodes."""
+    """Return the density (n,) [-] at points x (n, 3) [m] in the mesh, linear between the nodes."""
     grid, mesh = solver.grid, solver.grid.mesh
     density = np.append(nodal_density(solver).ravel(), 0.0)
-    g = (x - [mesh.ox, mesh.oy, mesh.oz]) * [mesh.ix, mesh.iy, mesh.iz]
+    g = x * [mesh.ix, mesh.iy, mesh.iz]
     g = np.clip(g, -4.0, np.array([mesh.nx, mesh.ny, mesh.nz]) + 4.0)
     first = np.floor(g).astype(np.int64)
     value = np.zeros(len(x))

@@ -72,9 +72,9 @@ def level_at(level, n0, rows, wx, wy, wz):
 def tile_origin(mesh, corner, shift):
     """Return the position of the first node of the tile of distances of a block."""
     return pack4(
-        mesh.ox + (corner[0] * SIDE + shift[0]) * mesh.hx,
-        mesh.oy + (corner[1] * SIDE + shift[1]) * mesh.hy,
-        mesh.oz + (corner[2] * SIDE + shift[2]) * mesh.hz,
+        (corner[0] * SIDE + shift[0]) * mesh.hx,
+        (corner[1] * SIDE + shift[1]) * mesh.hy,
+        (corner[2] * SIDE + shift[2]) * mesh.hz,
         0.0,
     )
 

@@ -7,18 +7,18 @@ from typing import ClassVar
 import numpy as np
 
 from mpmgeo.output.probes.probe import FieldProbe, components, particles_within, values
-from mpmgeo.parameters import Vector, parameter
-from mpmgeo.region import turned
+from mpmgeo.parameters import Placed, Vector, parameter
+from mpmgeo.region import bounds, turned
 
 
 @dataclass(frozen=True)
-class BoxProbe(FieldProbe):
+class BoxProbe(FieldProbe, Placed):
     """Mean or sum of fields over the particles that are in a closed box at the time."""
 
     type: ClassVar[str] = "box"
 
-    point_p1: Vector = parameter("Corner of lowest coordinates", unit="m")
-    point_p2: Vector = parameter("Corner of highest coordinates", unit="m")
+    point_p1: Vector = parameter("Corner of lowest coordinates", unit="m", place=True)
+    point_p2: Vector = parameter("Corner of highest coordinates", unit="m", place=True)
     reduction: str = parameter(
         "mean: weighted by volume; sum: of the particles' values",
         choices=("mean", "sum"),
@@ -40,6 +40,7 @@ class Reduced:
 
     def __init__(self, solver, probe):
         self.solver, self.probe = solver, probe
+        self._bounds = bounds(probe.point_p1, probe.point_p2, probe.zero)
         self.columns = ["particles", *components(solver, probe.fields)]
 
     def row(self):
@@ -47,7 +48,7 @@ class Reduced:
         probe = self.probe
         count, weight, total = 0, 0.0, np.zeros(len(self.columns) - 1)
         for s in self.solver.sets:
-            at = particles_within(self.solver, s, probe.point_p1, probe.point_p2)
+            at = particles_within(self.solver, s, *self._bounds)
             w = s.V[at] if probe.reduction == "mean" else np.ones(len(at))
             count, weight = count + len(at), weight + w.sum()
             total = total + w @ values(self.solver, s, probe.fields, at)

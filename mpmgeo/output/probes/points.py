@@ -17,7 +17,7 @@ class PointProbe(FieldProbe):
 
     type: ClassVar[str] = "points"
 
-    points: tuple[Vector, ...] = parameter("The points", unit="m")
+    points: tuple[Vector, ...] = parameter("The points", unit="m", place=True)
     interpolation: str = parameter(
         "linear: at the point, a linear fit to the particles within a cell's size of it, whichever "
         "they are; nearest: of the particle that starts nearest to it, wherever it goes",

@@ -65,13 +65,13 @@ def values(solver, s, fields, at) -> np.ndarray:
 
 
 def particles_within(solver, s, low, high) -> np.ndarray:
-    """Return the indices of a set's active particles in the closed box from low to high [m]."""
-    mesh = solver.grid.mesh
-    origin, cell = np.array(mesh[:3]), np.array(mesh[3:6])
+    """Return the indices of a set's active particles in the closed box from low to high [m]
+    in coordinates of the mesh."""
+    cell = np.array(solver.grid.mesh[:3])
     # the first node of a particle lies this many cells below it at most
     reach = 0.5 * (solver.grid.width - 2) + 1
-    first = np.floor((np.asarray(low) - origin) / cell - reach).astype(np.int64) >> 2
-    last = np.floor((np.asarray(high) - origin) / cell).astype(np.int64) >> 2
+    first = np.floor(np.asarray(low) / cell - reach).astype(np.int64) >> 2
+    last = np.floor(np.asarray(high) / cell).astype(np.int64) >> 2
     corner = solver.grid.corner
     near = np.flatnonzero(((corner >= first) & (corner <= last)).all(axis=1))
     ranges = [np.arange(s.start[b], s.start[b + 1]) for b in near if s.start[b] < s.start[b + 1]]

@@ -79,3 +79,10 @@ def test_declarations():
     body = cuboid((0, 0, 0), (1, 1, 1))
     assert (body.type, body.active, body.initial_velocity) == ("cuboid", True, (0.0, 0.0, 0.0))
     assert body.particles_per_direction == (2, 2, 2)
+
+
+def test_messages_about_large_coordinates_have_their_digits():
+    body = Cuboid(point_p1=(0, 4_500_000.2, 0), point_p2=(1, 4_500_000.1, 1), material_id=1)
+    ((key, message),) = body.problems()
+    assert key == "point_p2"
+    assert message == "y is 4500000.1 and must exceed that of point_p1, 4500000.2"

@@ -11,8 +11,8 @@ BOX = terrains.box([0, 0, 0], [2, 1, 3])
 HILL = terrains.patch(lambda x, y: np.cos(x) * np.sin(y), -3.0, 3.0, 12)
 
 
-def surface(corner):
-    return surface_of(corner, np.zeros((len(corner), 3)))
+def surface(corner, resolution=0.0):
+    return surface_of(corner, np.zeros((len(corner), 3)), resolution)
 
 
 def turned(corner, which):
@@ -50,7 +50,8 @@ def test_single_precision_and_any_order_change_nothing(corner):
     random = np.random.default_rng(0)
     order = random.permutation(len(corner))
     spread = 1e3 * (1 + random.uniform(-1, 1, corner.shape) * 5e-8)
-    found, wanted = surface(spread[order] * corner[order]), surface(corner)
+    single = np.finfo(np.float32).eps * 1e3 * np.abs(corner).max()
+    found, wanted = surface(spread[order] * corner[order], single), surface(corner)
     assert found.normal == pytest.approx(wanted.normal[order], abs=1e-5)
     assert (found.rim == wanted.rim[order]).all()
 
@@ -91,3 +92,23 @@ def test_triangles_that_share_an_edge_of_three_are_no_border():
     a, b = [0.0, 0, 0], [1.0, 0, 0]
     fins = [[a, b, [0.5, y, z]] for y, z in ((1, 0), (-1, 0.2), (0, 1))]
     assert not surface(np.array(fins)).rim[:, EDGE_12].any()
+
+
+def test_corners_as_near_as_doubles_tell_are_joined_by_the_triangle_not_by_the_place():
+    """Far from (0, 0, 0) a small hill keeps its triangles; noise of a few ulp opens no crack."""
+    small, place = 0.1 * HILL, np.array([5e5, 4.5e6, 0.0])
+    resolution = 4 * np.spacing(4.5e6)
+    noise = np.random.default_rng(3).integers(-1, 2, small.shape) * np.spacing(place)
+    found, wanted = surface(small + place + noise, resolution), surface(small)
+    assert found.notes == ()
+    assert (found.rim == wanted.rim).all()
+    assert found.normal == pytest.approx(wanted.normal, abs=1e-6)
+
+
+def test_corners_a_millionth_of_a_triangle_apart_are_two():
+    apart = HILL.copy()
+    apart[5, 0] += [2e-6, 0.0, 0.0]
+    assert surface(apart).rim.sum() > surface(HILL).rim.sum()
+    apart = HILL.copy()
+    apart[5, 0] += [1e-10, 0.0, 0.0]
+    assert surface(apart).rim.sum() == surface(HILL).rim.sum()

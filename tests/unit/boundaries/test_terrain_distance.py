@@ -89,17 +89,17 @@ def test_signs_as_in_mpm_geomechanics_are_those_of_the_plane():
 def nodes_of(mesh, corner):
     steps = np.stack(np.meshgrid(*3 * [np.arange(4)], indexing="ij"), -1).reshape(-1, 3)
     index = corner[:, None] * 4 + steps
-    return index * np.array(mesh[3:6]) + np.array(mesh[:3])
+    return index * np.array(mesh[:3])
 
 
 def test_blocks_of_nodes():
     """Near the surface they hold the distances of their nodes, elsewhere they are far."""
-    mesh = Mesh.of((-2.0, -2.0, -2.0), (0.25, 0.2, 0.125), (16, 20, 32))
+    mesh, hill = Mesh.of((0.25, 0.2, 0.125), (16, 20, 32)), HILL + 2.0
     corner = np.stack(np.meshgrid(range(4), range(5), range(8), indexing="ij"), -1).reshape(-1, 3)
     out = np.empty((len(corner), 64))
-    fill(ALONE, ground(HILL), mesh, 0.3, corner, out)
+    fill(ALONE, ground(hill), mesh, 0.3, corner, out)
     x = nodes_of(mesh, corner)
-    exact = measured(HILL, x.reshape(-1, 3)).reshape(out.shape)
+    exact = measured(hill, x.reshape(-1, 3)).reshape(out.shape)
     near = np.abs(out) < FAR
     assert (near.all(axis=1) | (~near).all(axis=1)).all()
     assert 0.1 < near.mean() < 0.9
@@ -110,7 +110,7 @@ def test_blocks_of_nodes():
 
 def test_a_surface_that_ends_with_the_mesh_goes_on_straight():
     """So that a particle at the edge of the mesh gathers the right distance and normal."""
-    mesh = Mesh.of((0.0, 0.0, 0.0), (0.5, 0.5, 0.5), (8, 8, 8))
+    mesh = Mesh.of((0.5, 0.5, 0.5), (8, 8, 8))
     slope = terrains.patch(lambda x, y: 1.0 + 0.5 * x, 0.0, 4.0, 8)
     corner = np.array([[-1, 0, 0], [2, 0, 1], [0, -1, 0], [-1, -1, 0], [2, 2, 1]])
     out = np.empty((len(corner), 64))

@@ -23,7 +23,7 @@ def test_tiles_hold_the_distances_of_the_nodes_under_them(tmp_path, offset):
     for s, b in enumerate(near.near):
         first = grid.corner[b] * 4 + near.shift
         index = np.stack(np.meshgrid(*3 * [np.arange(side)], indexing="ij"), -1) + first
-        exact = (index + np.array(grid.mesh[:3])) @ out
+        exact = (index + solver.population.zero) @ out
         known = np.abs(level[s]) < 1e29
         assert level[s][known] == pytest.approx(exact[known], abs=1e-12)
         assert (np.abs(exact[~known]) > 2).all()

@@ -18,7 +18,7 @@ from mpmgeo.state.grid import (
 from mpmgeo.state.layout import NODES, SIDE
 
 WIDTHS = (2, 3, 4, 5, 6, 9, 10)
-MESH = Mesh.of((0.0, 0.0, 0.0), (1.0, 1.0, 1.0), (40, 40, 40))
+MESH = Mesh.of((1.0, 1.0, 1.0), (40, 40, 40))
 
 
 def random_corners(seed, count=40, extent=4):
@@ -36,11 +36,11 @@ def covered(width, corners):
 
 
 def test_mesh_symbols():
-    mesh = Mesh.of((1, -2, 0.5), (0.5, 0.25, 2), (3, 4, 5))
-    assert (mesh.ox, mesh.oy, mesh.oz) == (1.0, -2.0, 0.5)
+    mesh = Mesh.of((0.5, 0.25, 2), (3, 4, 5))
+    assert (mesh.hx, mesh.hy, mesh.hz) == (0.5, 0.25, 2.0)
     assert (mesh.ix, mesh.iy, mesh.iz) == (2.0, 4.0, 0.5)
     assert (mesh.nx, mesh.ny, mesh.nz) == (3, 4, 5)
-    assert all(isinstance(value, float) for value in mesh[:9])
+    assert all(isinstance(value, float) for value in mesh[:6])
 
 
 limit = st.integers(-KEY_SHIFT, KEY_SHIFT - 1)

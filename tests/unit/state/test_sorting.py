@@ -13,8 +13,8 @@ from mpmgeo.state.grid import corners_of
 from mpmgeo.state.sorting import Walls, sort
 
 SHAPES_BY_WIDTH = {2: SHAPES["linear"], 3: SHAPES["GIMP"], 6: Spline6(), 10: Spline10()}
-ORIGIN, CELL, CELLS = (-1.0, 0.5, 2.0), (0.5, 0.25, 1.0), (20, 16, 24)
-LOW, HIGH = np.array(ORIGIN), np.array(ORIGIN) + np.array(CELL) * CELLS
+CELL, CELLS = (0.5, 0.25, 1.0), (20, 16, 24)
+LOW, HIGH = np.zeros(3), np.array(CELL) * CELLS
 
 
 def scattered(count, seed=0, width=3, split=1):
@@ -28,7 +28,6 @@ def scattered(count, seed=0, width=3, split=1):
         shape=SHAPES_BY_WIDTH[width],
         cells=CELLS,
         cell=CELL,
-        origin=ORIGIN,
         split=split,
     )
     return solver.grid, solver.sets
