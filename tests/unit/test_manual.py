@@ -11,7 +11,7 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("manual/*.md"), *ROOT.glob("inputs/*/*.md")])
-BLOCK = re.compile(r"<!-- (file: |end of: |run)(.*?) -->\n```python\n(.*?)```\n", re.DOTALL)
+BLOCK = re.compile(r"<!-- (file: |end of: |same as: |run)(.*?) -->\n```python\n(.*?)```\n", re.DOTALL)
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 
 
@@ -42,10 +42,13 @@ def test_new_models_work_as_the_manual_says(tmp_path):
         if action == "run":
             scripts.append(code)
             continue
+        if action == "same as: ":
+            assert (tmp_path / name).read_text(encoding="utf-8") == code
+            continue
         assert (tmp_path / name).exists() == (action == "end of: ")
         with (tmp_path / name).open("a", encoding="utf-8") as file:
             file.write(code if action == "file: " else "\n" + code)
-    assert len(scripts) == 2
+    assert len(scripts) == 3
     place = {"PYTHONPATH": str(tmp_path), "NUMBA_CACHE_DIR": str(tmp_path)}
     result = run("\n".join(scripts), tmp_path, **place)
     assert result.returncode == 0, result.stderr
