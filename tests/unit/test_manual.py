@@ -11,7 +11,9 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("manual/*.md"), *ROOT.glob("inputs/*/*.md")])
-BLOCK = re.compile(r"<!-- (file: |end of: |same as: |run)(.*?) -->\n```python\n(.*?)```\n", re.DOTALL)
+BLOCK = re.compile(
+    r"<!-- (file: |end of: |same as: |run)(.*?) -->\n```python\n(.*?)```\n", re.DOTALL
+)
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 
 
