@@ -1,7 +1,7 @@
 """What every kind of damping provides: JSON keys, and what it does at a node or with all particles.
 
 One that acts at the nodes has `symbols`, a NamedTuple for whose type `damp` is registered. One that
-acts on the particles as a whole has `effect`, see `mpm/effects/effect.py`.
+acts on the particles as a whole has `effect`, which returns an `Effect`.
 """
 
 from dataclasses import dataclass

@@ -10,7 +10,6 @@ from mpmgeo.case.building.time_step import time_step
 from mpmgeo.case.coordinates import in_mesh
 from mpmgeo.damping import LocalDamping
 from mpmgeo.loads import LOADS
-from mpmgeo.mpm.effects.reactions import Reactions
 from mpmgeo.mpm.schemes import SCHEMES
 from mpmgeo.mpm.solver import Solver
 from mpmgeo.shapes import SHAPES
@@ -85,4 +84,8 @@ def _reactions(case):
     """Return what measures the forces of planes and prescribed velocities, None if nobody asks."""
     planes = [probe.every for probe in case.results.probes if probe.type == "planes"]
     intervals = {*planes, *(entry.every for entry in case.prescribed_velocity)}
-    return Reactions(intervals, len(case.prescribed_velocity)) if intervals else None
+    if not intervals:
+        return None
+    from mpmgeo.mpm.effects.reactions import Reactions
+
+    return Reactions(intervals, len(case.prescribed_velocity))

@@ -3,7 +3,6 @@
 import numpy as np
 
 from mpmgeo.boundaries.distance import Ground
-from mpmgeo.mpm.terrain.contact import Contact, ContactAsMPMGeomechanics
 from mpmgeo.positions import shown
 
 RIM = 0.01  # cells by which a point may be beyond the border of a terrain
@@ -19,6 +18,8 @@ def bind_terrain(case, mesh, width, population, notes):
     terrain = case.terrain_contact
     if terrain is None:
         return None
+    from mpmgeo.mpm.terrain.contact import Contact, ContactAsMPMGeomechanics
+
     notes += terrain.surface.notes
     legacy = case.compatibility is not None
     surface = terrain_in_mesh(case, legacy)
