@@ -50,6 +50,8 @@ def take_over(solver, state) -> None:
                 f"the snapshot lacks {here}{error.args[0]}, which the case needs"
             ) from None
         parts |= {owner: found} if found else {}
+    for s in solver.sets:
+        s.lie_in(solver.grid)
     unknown = sorted(f"{owner}.{name}" for owner, part in parts.items() for name in part)
     if unknown:
         raise ValueError(

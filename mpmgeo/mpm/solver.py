@@ -8,7 +8,7 @@ import numpy as np
 
 from mpmgeo.boundaries.base_motion import STILL
 from mpmgeo.boundaries.planes import Planes
-from mpmgeo.effect import Effect
+from mpmgeo.effect import HOOKS, Effect
 from mpmgeo.mpm.incidents import Departures, Unsound
 from mpmgeo.mpm.persistence import copy_of, state_of, take_over
 from mpmgeo.mpm.stages import Stages
@@ -59,6 +59,10 @@ class Solver(Stages):
         self.motion = STILL  # of a plane that moves
         self.driven = None, ()  # model and arrays of nodes whose velocity is prescribed
         self.nodal = OnePhase()
+        self.asked = {
+            hook: [getattr(effect, hook) for effect in self.effects if effect.overrides(hook)]
+            for hook in HOOKS
+        }
         for effect in self.effects:
             effect.join(self)
 
@@ -75,8 +79,8 @@ class Solver(Stages):
         """Yield (topic, messages) for what the user should be told of, `messages` a function."""
         if self.departures:
             yield "departure", self.departures.first
-        for effect in self.effects:
-            yield from effect.news(self)
+        for news in self.asked["news"]:
+            yield from news(self)
 
     def arrange(self):
         """Sort the particles now if some are not where the order says; may raise Unsound."""
@@ -100,20 +104,20 @@ class Solver(Stages):
         if self.gone:
             self._sort()
             self.clock.lap("sort")
-        for effect in self.effects:
-            effect.begin(self, h)
+        for begin in self.asked["begin"]:
+            begin(self, h)
         self.scheme(self, h)
         self.steps += 1
         self.time += self.time_step
-        for effect in self.effects:
-            effect.end(self)
+        for end in self.asked["end"]:
+            end(self)
 
     def stop(self):
         """Set the velocities of all particles to zero."""
         for s in self.sets:
             s.stop()
-        for effect in self.effects:
-            effect.stopped(self)
+        for stopped in self.asked["stopped"]:
+            stopped(self)
 
     def kinetic_energy(self) -> float:
         """Return the kinetic energy of the active particles [J]."""
@@ -141,8 +145,8 @@ class Solver(Stages):
         """Sort the particles, note who leaves; `judge`: raise Unsound for those that failed."""
         left = sort(self.grid, self.sets, self.crew, self._walls())
         self.gone = 0
-        for effect in self.effects:
-            effect.after_sort(self)
+        for act in self.asked["after_sort"]:
+            act(self)
         new = [slice(s.active, s.active + n) for s, n in zip(self.sets, left, strict=True)]
         if judge:
             self._judge(new)
@@ -164,8 +168,8 @@ class Solver(Stages):
         if self.leaky or self.steps == 0:
             return OPEN
         walls = self.planes.walls
-        for effect in self.effects:
-            walls = effect.keeping(walls)
+        for keeping in self.asked["keeping"]:
+            walls = keeping(walls)
         return walls
 
     # What a run must hold to go on

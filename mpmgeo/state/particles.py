@@ -62,15 +62,17 @@ class ParticleSet:
     chunk: np.ndarray = field(init=False)  # bounds of the chunks of blocks
 
     def __post_init__(self):
-        self.begin = self.end = None  # first particle of each block, and the one after its last
+        self.place = None  # for loops, see `lie_in`
         self.start = np.array([0, len(self.row)])  # one heap, until the first sort
         self.chunk = cut(self.start)
 
-    def __setattr__(self, name, value):
-        """Set an attribute; bounds of the blocks' particles follow from `start`."""
-        super().__setattr__(name, value)
-        if name == "start":
-            self.begin, self.end = value[:-1], value[1:]
+    def lie_in(self, grid):
+        """Note where the particles lie in the blocks of a grid, for loops over them.
+
+        `place`: bounds of the chunks of blocks, first particle of each and the one after its last,
+        corners of the blocks.
+        """
+        self.place = self.chunk, self.start[:-1], self.start[1:], grid.corner
 
     def arrays(self):
         """Return the arrays that are permuted together, by name."""

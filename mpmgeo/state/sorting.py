@@ -208,5 +208,6 @@ def sort(grid, sets, crew, walls=OPEN):
                 put(movers, a, places, moved)
         s.start = start[:-1]
         s.chunk = cut(s.start)
+        s.lie_in(grid)
         left.append(int(counts[-1]))
     return left

@@ -93,7 +93,7 @@ class Contact(Effect):
         """Visit the particles of a set in the blocks near the ground."""
         s = self.sets[number]
         return over_particles(
-            *(solver.crew, work, solver.shape, solver.grid.mesh, self.places[number]),
+            *(solver.crew, work, solver.shape, solver.grid.frame, self.places[number]),
             *(s.half, s.x, nodes, solver.grid.scratch, (self.near.field.tiles,), False, arrays),
         )
 
@@ -103,7 +103,7 @@ class Contact(Effect):
         tiles = (near.field.tiles,) if is_sum else None
         place = near.nodes_chunk, near.nodes_corner, near.below
         over_nodes(
-            *(solver.crew, work, solver.shape, solver.grid.mesh, place),
+            *(solver.crew, work, solver.shape, solver.grid.frame, place),
             *(tiles, solver.grid.scratch, arrays),
         )
 
