@@ -6,7 +6,6 @@ stages have left, or what they are about to use; the stages and schemes know no 
 
 from collections.abc import Iterator
 
-
 HOOKS = (
     *("after_sort", "begin", "before_nodes", "after_nodes", "after_remap", "before_gather"),
     *("after_gather", "end", "stopped", "keeping", "news"),

@@ -59,6 +59,8 @@ class Solver(Stages):
         self.motion = STILL  # of a plane that moves
         self.driven = None, ()  # model and arrays of nodes whose velocity is prescribed
         self.nodal = OnePhase()
+        for s in self.sets:
+            s.lie_in(self.grid)
         self.asked = {
             hook: [getattr(effect, hook) for effect in self.effects if effect.overrides(hook)]
             for hook in HOOKS
