@@ -10,11 +10,12 @@ d: gathered distance. At the end particles whose middle was below the surface mo
 
 from typing import NamedTuple
 
+from mpmgeo.boundaries.distance import nearest_of
 from mpmgeo.mpm.core.loops import visit
 from mpmgeo.mpm.core.tile import collect_value
 from mpmgeo.mpm.terrain.touch import NORMAL, PUSH, TANGENT, TOUCHING, distance_of, locate_both, put
 from mpmgeo.numerics.simd import lane
-from mpmgeo.numerics.triangle_tree import FACE, closest, nearest
+from mpmgeo.numerics.triangle_tree import FACE, closest
 
 
 class Impel(NamedTuple):
@@ -42,7 +43,7 @@ def impel(work, here, a, p):
     if not abs(d) < contact.D:
         return 0
     c = here.c
-    t = nearest(ground, x[p, 0], x[p, 1], x[p, 2], last[c], waiting[c])
+    t = nearest_of(ground, x[p, 0], x[p, 1], x[p, 2], last[c], waiting[c])
     last[c] = t
     qx, qy, qz, _ = closest(ground.corner, t, x[p, 0], x[p, 1], x[p, 2])
     qx, qy, qz = qx - x[p, 0], qy - x[p, 1], qz - x[p, 2]
