@@ -33,7 +33,7 @@ def build(case):
     damping, early = _damping(case)
     tools, tool = bind_tools(case, population, velocity)
     contact = bind_terrain(case, mesh, shape.width, population, notes)
-    sets = particle_sets(case, population, velocity, law, tool, contact is not None, notes)
+    sets = particle_sets(case, population, velocity, law, tool, contact, notes)
     if case.n_phases == 2:
         saturate(case, sets, population, law)
     if case.load_state:
