@@ -46,7 +46,7 @@ def build(case):
         *_of_loads(case, mesh),
         contact,
         _reactions(case),
-        *(kind.effect() for kind in case.dampings),
+        *(_of_damping(kind, legacy) for kind in case.dampings),
     )
     solver = Solver(
         grid=Grid(mesh, shape.width),
@@ -74,6 +74,11 @@ def _damping(case):
         early = [kind for kind in acting if kind.type == LocalDamping.type][:1]
     models = tuple(kind.symbols for kind in acting if kind not in early)
     return models, early[0].symbols if early else None
+
+
+def _of_damping(kind, legacy):
+    """Return what a kind of damping does with the particles as a whole, None for nothing."""
+    return kind.effect_as_mpm_geomechanics() if legacy else kind.effect()
 
 
 def _of_loads(case, mesh):

@@ -49,6 +49,32 @@ def test_particles_that_are_far_have_their_distance(tmp_path):
     assert simulation.field("distance_levelset")[far] == pytest.approx(height(simulation)[far])
 
 
+def weight(g, l=0.25):
+    """Return the shape of a particle of half-size l at g from a node, both in cells."""
+    a = np.abs(g)
+    near, far = 1 - (a**2 + l**2) / (2 * l), (1 + l - a) ** 2 / (4 * l)
+    return np.where(a < l, near, np.where(a < 1 - l, 1 - a, np.where(a < 1 + l, far, 0.0)))
+
+
+def test_above_a_ridge_the_distances_of_the_nodes_are_gathered(tmp_path):
+    case = on_slope(tmp_path, 0, 0.2, path=1.0, gap=0.3, **OLD)
+    ridge = terrains.patch(lambda x, y: -0.5 * np.abs(x - 1.3), -20.3, 19.7, 40)
+    Path(case["terrain_contact"]["stl_mesh"]).write_text(text_of(ridge))
+    simulation = simulate(case).step(4)
+    x = simulation.field("position")
+    simulation.step()
+    steps = np.stack(np.meshgrid(*3 * [np.arange(-1, 3)], indexing="ij"), -1).reshape(-1, 3)
+    node = np.floor(x)[:, None] + steps  # cells of 1 m, an origin of whole metres
+    S = weight(x[:, None] - node).prod(axis=2)
+    zero = np.array(simulation.case.mesh.origin)
+    d = simulation.solver.ground.distance((node - zero).reshape(-1, 3)).reshape(S.shape)
+    assert S.sum(axis=1) == pytest.approx(1)
+    touching = simulation.field("particle_contact_flag") == 1
+    gathered, exact = (S * d).sum(axis=1), simulation.solver.ground.distance(x - zero)
+    assert simulation.field("distance_levelset")[touching] == pytest.approx(gathered[touching])
+    assert np.abs(gathered - exact)[touching].max() > 1e-3
+
+
 def moments(simulation):
     """Return volume and first moment (3,) of what the density at the nodes stands for."""
     solver = simulation.solver
