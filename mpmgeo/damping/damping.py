@@ -25,6 +25,10 @@ class Damping:
         """Return what acts on the particles as a whole, None if nothing does."""
         return
 
+    def effect_as_mpm_geomechanics(self):
+        """Return the same as the program MPM-Geomechanics has it."""
+        return self.effect()
+
 
 @dataclass(frozen=True)
 class NoDamping(Damping):

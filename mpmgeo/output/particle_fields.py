@@ -121,7 +121,7 @@ def _external_force(solver, s, at):
 def _distance(solver, s, at):
     if solver.ground is None:
         return np.zeros(len(s.row[at]))
-    return solver.ground.distance(s.x[at])
+    return solver.ground.level(s, at)
 
 
 def _contact(first):

@@ -71,6 +71,13 @@ def corners_of(keys):
     return np.stack(parts, axis=-1) - KEY_SHIFT
 
 
+def nodes_of(corner):
+    """Return the node indices (n, 64, 3) of blocks of a corner (n, 3)."""
+    steps = np.arange(SIDE)
+    inner = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), -1).reshape(-1, 3)
+    return corner[:, None] * SIDE + inner
+
+
 def _find(table, keys):
     """Return the position of each key in the sorted table, −1 where it is not there."""
     at = np.minimum(np.searchsorted(table, keys), len(table) - 1)
@@ -130,9 +137,7 @@ class Grid:
 
     def indices(self):
         """Return the node indices of the active blocks, shape (blocks, 64, 3)."""
-        steps = np.arange(SIDE)
-        inner = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), -1).reshape(-1, 3)
-        return self.active_corner[:, None] * SIDE + inner
+        return nodes_of(self.active_corner)
 
     def held(self):
         """Return what a run that goes on needs of the grid, by name."""

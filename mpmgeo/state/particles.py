@@ -50,7 +50,7 @@ class ParticleSet:
     pressure: np.ndarray | None = None  # (n,) given pore pressure [Pa], compression positive
     strain: np.ndarray | None = None  # (n, 6) sum of the strain increments [-]
     due: np.ndarray | None = None  # (n,) when to look for contact, see `mpm.touch`; −1 in contact
-    contact: np.ndarray | None = None  # (n, 9) normal, tangential force [N], displacement out [m]
+    contact: np.ndarray | None = None  # (n, …) forces and shift of contact, see `mpm.terrain`
     tool: int | None = None  # number of the prescribed velocity that the particles have
     fluid: object = None  # symbols of the pore fluid; with it m is the solid's mass
     mf: np.ndarray | None = None  # (n,) mass of the fluid [kg]

@@ -32,7 +32,7 @@ def build(case):
     damping, early = _damping(case)
     tools, tool = bind_tools(case, population, velocity)
     contact = bind_terrain(case, mesh, shape.width, population, notes)
-    sets = particle_sets(case, population, velocity, law, tool, contact is not None, notes)
+    sets = particle_sets(case, population, velocity, law, tool, contact, notes)
     if case.n_phases == 2:
         saturate(case, sets, population, law)
     if case.load_state:
@@ -45,7 +45,7 @@ def build(case):
         *_of_loads(case, mesh),
         contact,
         _reactions(case),
-        *(kind.effect() for kind in case.dampings),
+        *(_of_damping(kind, legacy) for kind in case.dampings),
     )
     solver = Solver(
         grid=Grid(mesh, shape.width),
@@ -73,6 +73,11 @@ def _damping(case):
         early = [kind for kind in acting if kind.type == LocalDamping.type][:1]
     models = tuple(kind.symbols for kind in acting if kind not in early)
     return models, early[0].symbols if early else None
+
+
+def _of_damping(kind, legacy):
+    """Return what a kind of damping does with the particles as a whole, None for nothing."""
+    return kind.effect_as_mpm_geomechanics() if legacy else kind.effect()
 
 
 def _of_loads(case, mesh):

@@ -5,11 +5,11 @@ import numpy as np
 from mpmgeo.boundaries.distance import distances
 from mpmgeo.effect import Effect
 from mpmgeo.mpm.core.loops import over_nodes, over_particles
-from mpmgeo.mpm.terrain.density import density_at, nodal_density
+from mpmgeo.mpm.terrain.density import NOTHING, nodal_density
 from mpmgeo.mpm.terrain.ground import NearGround
 from mpmgeo.mpm.terrain.press import Fastest, MoveOut, Part, Press, Push
-from mpmgeo.mpm.terrain.touch import Detect
-from mpmgeo.mpm.terrain.touch_legacy import Impel
+from mpmgeo.mpm.terrain.touch import COLUMNS, TOUCHING, Detect
+from mpmgeo.mpm.terrain.touch_legacy import LEVEL, Impel
 from mpmgeo.numerics.chunks import ALONE, CHUNKS
 from mpmgeo.numerics.triangle_tree import DEPTH, FACE
 
@@ -25,6 +25,7 @@ class Contact(Effect):
     """
 
     name = "ground"
+    columns = COLUMNS  # of the particles' arrays of contact
 
     def __init__(self, symbols, surface, ground, mesh, width):
         self.symbols = symbols
@@ -120,13 +121,21 @@ class Contact(Effect):
         distances(ALONE, self.ground, np.ascontiguousarray(x) - self.offset, out)
         return out
 
+    def level(self, s, at):
+        """Return the signed distances (n,) [m] of the particles `at` of a set, as files have it."""
+        return self.distance(s.x[at])
+
     def density(self, solver):
-        """Return the share (blocks, 64) of the nodes' volume that particles fill."""
-        return nodal_density(solver)
+        """Return node indices (n, 3), and the share (n,) of their volume that particles fill."""
+        density = self._filled(solver)
+        return density.indices().reshape(-1, 3), density.values.ravel()
 
     def density_at(self, solver, x):
         """Return that share (n,) at points (n, 3) [m] in coordinates of the mesh."""
-        return density_at(solver, x)
+        return self._filled(solver).at(solver.grid.mesh, x)
+
+    def _filled(self, solver):
+        return nodal_density(solver)
 
     def triangles(self):
         """Return centres (n, 3) [m] and normals (n, 3) of the triangles as they lie.
@@ -165,10 +174,19 @@ class Contact(Effect):
 
 
 class ContactAsMPMGeomechanics(Contact):
-    """Contact at a distance, on particles alone, with a ground that stays where it is."""
+    """Contact at a distance, on particles alone, with a ground that stays where it is.
+
+    `keeps_density`: whether files want the density, which is that at the beginning of a step.
+    """
+
+    columns = LEVEL + 1
+    keeps_density = False
+    _density = None
 
     def after_nodes(self, solver, h):
         """Change the velocities of particles that approach the ground."""
+        if self.keeps_density:
+            self._density = nodal_density(solver)
         self._arrange(solver)
         near, grid = self.near, solver.grid
         near.touched[:] = 1
@@ -183,3 +201,21 @@ class ContactAsMPMGeomechanics(Contact):
 
     def follow(self, motion, dt):
         """Do nothing: only the velocity of the ground counts."""
+
+    def level(self, s, at):
+        """Return the distances (n,) [m] that particles near the ground gathered in the last step.
+
+        Those below it have 0, since they have been put onto it; of the others it is the distance.
+        """
+        return np.where(s.due[at] == TOUCHING, s.contact[at, LEVEL], self.distance(s.x[at]))
+
+    def _filled(self, solver):
+        """Return the density of the last step, none before the first one."""
+        if solver.steps == 0:
+            return NOTHING
+        return nodal_density(solver) if self._density is None else self._density
+
+    def take(self, state):
+        """Go on with what `held` once returned; the density of its last step is not known."""
+        super().take(state)
+        self._density = None
