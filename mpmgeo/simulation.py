@@ -165,6 +165,9 @@ class Simulation:
             last = self.solver.departures[-1].time
             self.say(f"{count} particles left the mesh, the last of them after {last:.6g} s")
 
+        for message in remarks():
+            if message not in self.messages:
+                self.say(message)
     def arrange(self):
         """Bring the particles in the order that looking for them by place needs."""
         self._guarded(self.solver.arrange)
