@@ -9,6 +9,8 @@ from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
 
+from mpmgeo.numerics.environment import Unusable, examine
+
 DONE, BAD_INPUT, DIVERGED, INTERRUPTED = 0, 2, 3, 130
 
 COMMANDS = {"benchmark": "mpmgeo.benchmark.command"}
@@ -42,6 +44,7 @@ def main(argv=None) -> int:
         return stop.code or DONE
     with _termination_as_interrupt():
         try:
+            examine()
             return serve(arguments)
         except KeyboardInterrupt:
             _say("error", "interrupted")
@@ -53,6 +56,9 @@ def main(argv=None) -> int:
         except OSError as error:
             name = f"{error.filename}: " if error.filename else ""
             _say("error", f"{name}{error.strerror or error}")
+            return BAD_INPUT
+        except Unusable as error:
+            _say("error", str(error))
             return BAD_INPUT
         except MemoryError:
             _say("error", "the case needs more memory than there is")

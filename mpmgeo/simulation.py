@@ -13,6 +13,7 @@ from mpmgeo.case.building.time_step import critical_time_step
 from mpmgeo.case.coordinates import in_mesh
 from mpmgeo.mpm.incidents import Unsound
 from mpmgeo.naming import GHOSTS, PLANES
+from mpmgeo.numerics.chunks import most_threads
 from mpmgeo.numerics.jit import remarks
 from mpmgeo.output.final_stress import FinalStress
 from mpmgeo.output.histories import Histories, histories_of
@@ -95,7 +96,7 @@ class Simulation:
         return case_facts(self.case)
 
     def _set_threads(self, wanted):
-        most = numba.config.NUMBA_NUM_THREADS
+        most = most_threads()
         if wanted and wanted > most:
             self.say(f"n_threads: {wanted} asked for, {most} available")
         return min(wanted or most, most)

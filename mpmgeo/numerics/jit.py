@@ -8,6 +8,11 @@ import numba
 from numba.extending import register_jitable
 
 from mpmgeo.numerics.cache import complain, keep, own_folder, troubles
+from mpmgeo.numerics.environment import Unusable, examine
+
+examine()
+if numba.config.DISABLE_JIT:
+    raise Unusable("numba is set not to compile, but this program runs compiled")
 
 # Without nnan and ninf: the compiler may neither delete a NaN test nor assume that a NaN is inside.
 FAST = {"nsz", "arcp", "contract", "afn", "reassoc"}
