@@ -10,6 +10,7 @@ from importlib import import_module
 from pathlib import Path
 
 from mpmgeo.numerics.environment import Unusable, examine
+from mpmgeo.run.terminal import without_controls
 
 DONE, BAD_INPUT, DIVERGED, INTERRUPTED = 0, 2, 3, 130
 
@@ -176,7 +177,7 @@ def _say_all(kind, texts):
 
 
 def _say(kind, text):
-    print(f"{kind}: {text}", file=sys.stderr, flush=True)
+    print(f"{kind}: {without_controls(text)}", file=sys.stderr, flush=True)
 
 
 @contextmanager

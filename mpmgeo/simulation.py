@@ -79,6 +79,11 @@ class Simulation:
 
     def save(self, path):
         """Write a snapshot of the complete state."""
+        if simulation.time >= case.time:
+            simulation.say(
+                f"the run is at its end already, {case.time:.6g} s; it goes on if a case says a "
+                "later time"
+            )
         from mpmgeo.mpm.persistence import snapshot_of
         from mpmgeo.output.whole_file import whole_file
         from mpmgeo.state.snapshot import Snapshot, write_snapshot
