@@ -10,7 +10,8 @@ from importlib import import_module
 from pathlib import Path
 
 from mpmgeo.numerics.environment import Unusable, examine
-from mpmgeo.run.terminal import without_controls
+from mpmgeo.run.interrupt import HANGUP, ending
+from mpmgeo.run.terminal import Streams, without_controls
 
 DONE, BAD_INPUT, DIVERGED, INTERRUPTED = 0, 2, 3, 130
 
@@ -182,16 +183,25 @@ def _say(kind, text):
 
 @contextmanager
 def _termination_as_interrupt():
-    """Let SIGTERM do whatever Ctrl-C does at that moment."""
+    """Let SIGTERM and SIGHUP do what Ctrl-C does, also in a process that ignores Ctrl-C."""
+    streams = Streams()
+
+    def end(number, _):
+        if number == HANGUP:
+            streams.hang_up()
+            signal.signal(HANGUP, signal.SIG_IGN)
+        raise KeyboardInterrupt
+
     try:
-        before = signal.signal(signal.SIGTERM, lambda *_: signal.raise_signal(signal.SIGINT))
+        before = {number: signal.signal(number, end) for number in ending()}
     except ValueError:  # outside the main thread, where signals are not ours to handle
         yield
         return
     try:
         yield
     finally:
-        signal.signal(signal.SIGTERM, before)
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 def _parse(argv):
