@@ -70,6 +70,7 @@ def main(argv=None) -> int:
 def run(case, arguments) -> int:
     """Simulate a case, write its files and return the exit code."""
     from mpmgeo.numerics.jit import prepare
+    from mpmgeo.output.claim import claimed
     from mpmgeo.run.progress import Compilation, Progress
     from mpmgeo.run.watch import Diverged
 
@@ -78,10 +79,12 @@ def run(case, arguments) -> int:
     output = Path(arguments.output)
     with Compilation(lambda: None if quiet else _say("note", COMPILING)) as compilation:
         simulation = _build(case, arguments, output)
-        _save_resolved(simulation.case, output)
         shown = len(simulation.messages)
+        watchers = [] if quiet else [Progress(compilation)]
         try:
-            simulation.run(watchers=[] if quiet else [Progress(compilation)])
+            with _output_named(), claimed(output, str(arguments.case or arguments.resume)):
+                _save_resolved(simulation.case, output)
+                simulation.run(watchers=watchers)
         except Diverged as error:
             _say("error", str(error))
             return DIVERGED
@@ -96,6 +99,20 @@ def run(case, arguments) -> int:
     if not quiet:
         _say("note", f"results are in {output.resolve()}")
     return DONE
+
+
+@contextmanager
+def _output_named():
+    """Let the errors of files say that these are the output."""
+    from mpmgeo.output.claim import Refused
+
+    try:
+        yield
+    except (BrokenPipeError, Refused):
+        raise
+    except OSError as error:
+        reason = f"{error.strerror or error} (this is the output of the run)"
+        raise OSError(error.errno, reason, error.filename) from error
 
 
 def check(case, arguments) -> int:

@@ -15,6 +15,7 @@ from mpmgeo.mpm.incidents import Unsound
 from mpmgeo.naming import GHOSTS, PLANES
 from mpmgeo.numerics.chunks import most_threads
 from mpmgeo.numerics.jit import remarks
+from mpmgeo.output.claim import claimed
 from mpmgeo.output.final_stress import FinalStress
 from mpmgeo.output.histories import Histories, histories_of
 from mpmgeo.output.particle_fields import particle_field
@@ -116,12 +117,14 @@ class Simulation:
         """Run to the end of the case, or to time `until` [s]; returns the simulation.
 
         Raises Diverged when particles become NaN, infinite or too fast; the state is then the last
-        sound one. The first Ctrl-C ends the run after a whole step and sets `interrupted`.
+        sound one. The first Ctrl-C ends the run after a whole step and sets `interrupted`. Raises
+        OSError if files cannot be written, or if another run writes into the output folder.
         """
         every = self.output_interval
         watchers = [Guard(every), *self._files(every), *watchers]
         try:
-            run(self, self.case.time if until is None else until, watchers)
+            with claimed(self.output, self.case.title):
+                run(self, self.case.time if until is None else until, watchers)
         finally:
             self.goes_on = True
             self._report_departures()
