@@ -67,24 +67,27 @@ class Simulation:
         """
         from mpmgeo.case.resume import case_of
         from mpmgeo.mpm.persistence import take_snapshot
-        from mpmgeo.state.snapshot import read_snapshot
+        from mpmgeo.state.snapshot import StoredSnapshot
 
-        snapshot = read_snapshot(path)
+        snapshot = StoredSnapshot(path)
+        told = snapshot.facts.get("told")
+        if not (isinstance(told, list) and all(isinstance(topic, str) for topic in told)):
+            raise ValueError(f"{path}: is no snapshot of a run")
         case = case_of(path, snapshot.facts, case)
         simulation = cls(replace(case, load_state=False), output, threads)
         simulation.case = case
         take_snapshot(simulation.solver, snapshot)
-        simulation._told = set(snapshot.facts["told"])
+        simulation._told = set(told)
         simulation.goes_on = True
-        return simulation
-
-    def save(self, path):
-        """Write a snapshot of the complete state."""
         if simulation.time >= case.time:
             simulation.say(
                 f"the run is at its end already, {case.time:.6g} s; it goes on if a case says a "
                 "later time"
             )
+        return simulation
+
+    def save(self, path):
+        """Write a snapshot of the complete state."""
         from mpmgeo.mpm.persistence import snapshot_of
         from mpmgeo.output.whole_file import whole_file
         from mpmgeo.state.snapshot import Snapshot, write_snapshot
@@ -162,6 +165,9 @@ class Simulation:
             if self._once(topic):
                 for message in messages():
                     self.say(message)
+        for message in remarks():
+            if message not in self.messages:
+                self.say(message)
 
     def _once(self, topic):
         new = topic not in self._told
@@ -174,9 +180,6 @@ class Simulation:
             last = self.solver.departures[-1].time
             self.say(f"{count} particles left the mesh, the last of them after {last:.6g} s")
 
-        for message in remarks():
-            if message not in self.messages:
-                self.say(message)
     def arrange(self):
         """Bring the particles in the order that looking for them by place needs."""
         self._guarded(self.solver.arrange)

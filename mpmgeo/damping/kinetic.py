@@ -9,6 +9,7 @@ from typing import ClassVar
 
 from mpmgeo.damping.damping import Damping
 from mpmgeo.effect import Effect
+from mpmgeo.state.checked import number_from
 
 
 @dataclass(frozen=True)
@@ -45,4 +46,4 @@ class Stops(Effect):
 
     def take(self, state):
         """Go on with what `held` once returned."""
-        self.last = state.pop("last_energy")
+        self.last = number_from(state, "last_energy")

@@ -12,8 +12,10 @@ from mpmgeo.mpm.terrain.touch import Detect
 from mpmgeo.mpm.terrain.touch_legacy import Impel
 from mpmgeo.numerics.chunks import ALONE, CHUNKS
 from mpmgeo.numerics.triangle_tree import DEPTH, FACE
+from mpmgeo.state.checked import demand, number_from, vector_from
 
 LIGHT = 1e-6  # share of a particle's mass
+FARTHEST = 1e6  # cells by which a ground may have moved; beyond, blocks have no names
 CAUTION = 2.0  # for what contact does to the speeds, and for bends of the ground
 
 
@@ -161,7 +163,10 @@ class Contact(Effect):
 
     def take(self, state):
         """Go on with what `held` once returned."""
-        self.offset, self.way = tuple(state.pop("offset")), state.pop("way")
+        offset, self.way = vector_from(state, "offset"), number_from(state, "way", least=0.0)
+        far = max(abs(u) / h for u, h in zip(offset, self.near.cell, strict=True))
+        demand(far < FARTHEST, f"offset moves the ground by {far:.3g} cells")
+        self.offset = offset
 
 
 class ContactAsMPMGeomechanics(Contact):
