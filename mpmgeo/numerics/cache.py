@@ -129,6 +129,7 @@ class KernelCache(FunctionCache):
         try:
             super().save_overload(sig, data)
         except OSError as error:
+            error.filename = error.filename or self._cache_path
             complain(error)
 
 

@@ -207,7 +207,8 @@ def test_a_full_disk_does_not_end_a_run_and_is_said(tmp_path):
     )
     assert done.returncode == 0, done.stderr
     assert done.stdout.startswith("3.0 compiled kernels are not kept (")
-    assert "File too large" in done.stdout and "last bits may differ" in done.stdout
+    assert f"{tmp_path / 'cache' / 'mpmgeo'}" in done.stdout and "File too large" in done.stdout
+    assert "last bits may differ" in done.stdout
 
 
 def test_a_run_says_what_happens_to_its_kernels(monkeypatch):
