@@ -36,7 +36,8 @@ def whole_file(path: Path | str) -> Iterator[BinaryIO]:
 def append(path: Path | str, text: str) -> None:
     """Put a text at the end of a file, which is no link; raises OSError that names the file."""
     demand_place(path)
-    flags = os.O_WRONLY | os.O_CREAT | os.O_APPEND | getattr(os, "O_NOFOLLOW", 0)
+    flags = os.O_WRONLY | os.O_CREAT | os.O_APPEND
+    flags |= getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)  # each on some systems only
     with _named(path), os.fdopen(os.open(path, flags, 0o666), "ab") as file:
         file.write(text.encode())
 

@@ -44,7 +44,7 @@ def number_from(state: dict, name: str, least: float = -np.inf) -> float:
     value = state.pop(name)
     if not _is_finite(value) or value < least:
         raise ValueError(f"{name} is {brief(value)} where the case needs a finite number")
-    return value
+    return float(value)
 
 
 def whole_from(state: dict, name: str) -> int:
@@ -69,7 +69,7 @@ def vector_from(state: dict, name: str) -> tuple:
     is_list = isinstance(value, list | tuple | np.ndarray) and len(value) == 3
     if not (is_list and all(map(_is_finite, value))):
         raise ValueError(f"{name} is {brief(value)} where the case needs three finite numbers")
-    return tuple(value)
+    return tuple(map(float, value))
 
 
 def demand(is_sound: bool, message: str) -> None:

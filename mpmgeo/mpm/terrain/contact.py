@@ -15,7 +15,7 @@ from mpmgeo.numerics.triangle_tree import DEPTH, FACE
 from mpmgeo.state.checked import demand, number_from, vector_from
 
 LIGHT = 1e-6  # share of a particle's mass
-FARTHEST = 1e6  # cells by which a ground may have moved; beyond, blocks have no names
+FARTHEST = 1e6  # cells by which a ground may move; beyond, blocks have no names
 CAUTION = 2.0  # for what contact does to the speeds, and for bends of the ground
 
 
@@ -110,8 +110,10 @@ class Contact(Effect):
         )
 
     def follow(self, motion, dt):
-        """Let the ground move for a step of the base."""
-        self.offset = tuple(u + dt * v for u, v in zip(self.offset, motion.after, strict=True))
+        """Let the ground move for a step of the base, as far as blocks have names."""
+        far = [FARTHEST * h for h in self.near.cell]
+        moved = (u + dt * v for u, v in zip(self.offset, motion.after, strict=True))
+        self.offset = tuple(max(-f, min(f, u)) for f, u in zip(far, moved, strict=True))
 
     def distance(self, x):
         """Return the signed distances (n,) [m] of points (n, 3) [m] to the ground as it lies.
@@ -165,7 +167,7 @@ class Contact(Effect):
         """Go on with what `held` once returned."""
         offset, self.way = vector_from(state, "offset"), number_from(state, "way", least=0.0)
         far = max(abs(u) / h for u, h in zip(offset, self.near.cell, strict=True))
-        demand(far < FARTHEST, f"offset moves the ground by {far:.3g} cells")
+        demand(far <= FARTHEST, f"offset moves the ground by {far:.3g} cells")
         self.offset = offset
 
 

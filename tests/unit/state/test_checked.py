@@ -40,6 +40,18 @@ def test_sound_ones_are_taken():
     assert reactions(forces=np.ones((7, 3))).sum() == 21.0
 
 
+def test_numbers_are_doubles():
+    """Kernels cannot take a whole number of any size."""
+    assert [type(v) for v in base(velocity=[10**30, 1, 0])] == [float, float, float]
+
+
+@pytest.mark.parametrize("speed", [1e300, -1e300, float("inf"), float("nan")])
+def test_a_ground_that_is_torn_away_still_has_a_place(speed):
+    made = SimpleNamespace(near=SimpleNamespace(cell=[0.5, 0.5, 0.5]), offset=(0.0, 0.0, 0.0))
+    Contact.follow(made, SimpleNamespace(after=(speed, 0.25, 0.0)), 0.5)
+    assert abs(made.offset[0]) == 0.5e6 and made.offset[1:] == (0.125, 0.0)
+
+
 @pytest.mark.parametrize(
     ("take", "state"),
     [
