@@ -9,6 +9,10 @@ from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
 
+from mpmgeo.numerics.environment import Unusable, examine
+from mpmgeo.run.interrupt import HANGUP, ending
+from mpmgeo.run.terminal import Streams, without_controls
+
 DONE, BAD_INPUT, DIVERGED, INTERRUPTED = 0, 2, 3, 130
 
 COMMANDS = {"benchmark": "mpmgeo.benchmark.command"}
@@ -42,6 +46,7 @@ def main(argv=None) -> int:
         return stop.code or DONE
     with _termination_as_interrupt():
         try:
+            examine()
             return serve(arguments)
         except KeyboardInterrupt:
             _say("error", "interrupted")
@@ -54,6 +59,9 @@ def main(argv=None) -> int:
             name = f"{error.filename}: " if error.filename else ""
             _say("error", f"{name}{error.strerror or error}")
             return BAD_INPUT
+        except Unusable as error:
+            _say("error", str(error))
+            return BAD_INPUT
         except MemoryError:
             _say("error", "the case needs more memory than there is")
             return BAD_INPUT
@@ -62,6 +70,7 @@ def main(argv=None) -> int:
 def run(case, arguments) -> int:
     """Simulate a case, write its files and return the exit code."""
     from mpmgeo.numerics.jit import prepare
+    from mpmgeo.output.claim import claimed
     from mpmgeo.run.progress import Compilation, Progress
     from mpmgeo.run.watch import Diverged
 
@@ -70,10 +79,12 @@ def run(case, arguments) -> int:
     output = Path(arguments.output)
     with Compilation(lambda: None if quiet else _say("note", COMPILING)) as compilation:
         simulation = _build(case, arguments, output)
-        _save_resolved(simulation.case, output)
         shown = len(simulation.messages)
+        watchers = [] if quiet else [Progress(compilation)]
         try:
-            simulation.run(watchers=[] if quiet else [Progress(compilation)])
+            with _output_named(), claimed(output, str(arguments.case or arguments.resume)):
+                _save_resolved(simulation.case, output)
+                simulation.run(watchers=watchers)
         except Diverged as error:
             _say("error", str(error))
             return DIVERGED
@@ -88,6 +99,20 @@ def run(case, arguments) -> int:
     if not quiet:
         _say("note", f"results are in {output.resolve()}")
     return DONE
+
+
+@contextmanager
+def _output_named():
+    """Let the errors of files say that these are the output."""
+    from mpmgeo.output.claim import Refused
+
+    try:
+        yield
+    except (BrokenPipeError, Refused):
+        raise
+    except OSError as error:
+        reason = f"{error.strerror or error} (this is the output of the run)"
+        raise OSError(error.errno, reason, error.filename) from error
 
 
 def check(case, arguments) -> int:
@@ -170,21 +195,30 @@ def _say_all(kind, texts):
 
 
 def _say(kind, text):
-    print(f"{kind}: {text}", file=sys.stderr, flush=True)
+    print(f"{kind}: {without_controls(text)}", file=sys.stderr, flush=True)
 
 
 @contextmanager
 def _termination_as_interrupt():
-    """Let SIGTERM do whatever Ctrl-C does at that moment."""
+    """Let SIGTERM and SIGHUP do what Ctrl-C does, also in a process that ignores Ctrl-C."""
+    streams = Streams()
+
+    def end(number, _):
+        if number == HANGUP:
+            streams.hang_up()
+            signal.signal(HANGUP, signal.SIG_IGN)
+        raise KeyboardInterrupt
+
     try:
-        before = signal.signal(signal.SIGTERM, lambda *_: signal.raise_signal(signal.SIGINT))
+        before = {number: signal.signal(number, end) for number in ending()}
     except ValueError:  # outside the main thread, where signals are not ours to handle
         yield
         return
     try:
         yield
     finally:
-        signal.signal(signal.SIGTERM, before)
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 def _parse(argv):

@@ -66,4 +66,7 @@ class Effect:
         return {}
 
     def take(self, state: dict):
-        """Go on with what `held` once returned, taking it out; KeyError for what is missing."""
+        """Go on with what `held` once returned, taking it out of `state`, which may be a file's.
+
+        Raises KeyError for what is missing, ValueError for what cannot be (`state/checked.py`).
+        """

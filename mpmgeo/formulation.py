@@ -67,7 +67,8 @@ class Formulation(Protocol):
     def owners(self) -> dict[str, Any]:
         """Return all that hold a part of the state, by the name that their part has.
 
-        Each has `held()`, which returns its part by name, and `take(held)`, which goes on with it.
+        Each has `held()`, which returns its part by name, and `take(held)`, which goes on with it;
+        KeyError for what is missing, ValueError for what cannot be.
         """
 
     def keep(self, kept: dict | None = None) -> dict:

@@ -13,7 +13,9 @@ from mpmgeo.case.building.time_step import critical_time_step
 from mpmgeo.case.coordinates import in_mesh
 from mpmgeo.mpm.incidents import Unsound
 from mpmgeo.naming import GHOSTS, PLANES
+from mpmgeo.numerics.chunks import most_threads
 from mpmgeo.numerics.jit import remarks
+from mpmgeo.output.claim import claimed
 from mpmgeo.output.final_stress import FinalStress
 from mpmgeo.output.histories import Histories, histories_of
 from mpmgeo.output.particle_fields import particle_field
@@ -65,15 +67,23 @@ class Simulation:
         """
         from mpmgeo.case.resume import case_of
         from mpmgeo.mpm.persistence import take_snapshot
-        from mpmgeo.state.snapshot import read_snapshot
+        from mpmgeo.state.snapshot import StoredSnapshot
 
-        snapshot = read_snapshot(path)
+        snapshot = StoredSnapshot(path)
+        told = snapshot.facts.get("told")
+        if not (isinstance(told, list) and all(isinstance(topic, str) for topic in told)):
+            raise ValueError(f"{path}: is no snapshot of a run")
         case = case_of(path, snapshot.facts, case)
         simulation = cls(replace(case, load_state=False), output, threads)
         simulation.case = case
         take_snapshot(simulation.solver, snapshot)
-        simulation._told = set(snapshot.facts["told"])
+        simulation._told = set(told)
         simulation.goes_on = True
+        if simulation.time >= case.time:
+            simulation.say(
+                f"the run is at its end already, {case.time:.6g} s; it goes on if a case says a "
+                "later time"
+            )
         return simulation
 
     def save(self, path):
@@ -95,7 +105,7 @@ class Simulation:
         return case_facts(self.case)
 
     def _set_threads(self, wanted):
-        most = numba.config.NUMBA_NUM_THREADS
+        most = most_threads()
         if wanted and wanted > most:
             self.say(f"n_threads: {wanted} asked for, {most} available")
         return min(wanted or most, most)
@@ -110,12 +120,14 @@ class Simulation:
         """Run to the end of the case, or to time `until` [s]; returns the simulation.
 
         Raises Diverged when particles become NaN, infinite or too fast; the state is then the last
-        sound one. The first Ctrl-C ends the run after a whole step and sets `interrupted`.
+        sound one. The first Ctrl-C ends the run after a whole step and sets `interrupted`. Raises
+        OSError if files cannot be written, or if another run writes into the output folder.
         """
         every = self.output_interval
         watchers = [Guard(every), *self._files(every), *watchers]
         try:
-            run(self, self.case.time if until is None else until, watchers)
+            with claimed(self.output, self.case.title):
+                run(self, self.case.time if until is None else until, watchers)
         finally:
             self.goes_on = True
             self._report_departures()
@@ -153,6 +165,9 @@ class Simulation:
             if self._once(topic):
                 for message in messages():
                     self.say(message)
+        for message in remarks():
+            if message not in self.messages:
+                self.say(message)
 
     def _once(self, topic):
         new = topic not in self._told

@@ -17,10 +17,13 @@ def case_of(path, facts, case=None):
 
     Raises ValueError if `case` is not that of the snapshot at `path`, or its files have changed.
     """
-    if "case" not in facts or "fingerprint" not in facts:
+    if not all(isinstance(facts.get(key), dict) for key in ("case", "fingerprint")):
         raise ValueError(f"{path}: is no snapshot of a run")
     case = load_case(facts["case"]) if case is None else case
-    found = differences(facts["fingerprint"], fingerprint(case))
+    try:
+        found = differences(facts["fingerprint"], fingerprint(case))
+    except RecursionError:  # no case is nested so deep
+        raise ValueError(f"{path}: is no snapshot of a run") from None
     if found:
         named = ", ".join(found[:MOST_DIFFERENCES])
         more = f" and {len(found) - MOST_DIFFERENCES} more" if found[MOST_DIFFERENCES:] else ""

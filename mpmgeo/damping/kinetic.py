@@ -9,6 +9,7 @@ from typing import ClassVar
 
 from mpmgeo.damping.damping import Damping
 from mpmgeo.effect import Effect
+from mpmgeo.state.checked import number_from, truth_from
 
 
 @dataclass(frozen=True)
@@ -49,7 +50,7 @@ class Stops(Effect):
 
     def take(self, state):
         """Go on with what `held` once returned."""
-        self.last = state.pop("last_energy")
+        self.last = number_from(state, "last_energy")
 
 
 class StopsLater(Stops):
@@ -79,4 +80,4 @@ class StopsLater(Stops):
     def take(self, state):
         """Go on with what `held` once returned."""
         super().take(state)
-        self.due = state.pop("due")
+        self.due = truth_from(state, "due")

@@ -14,6 +14,7 @@ from mpmgeo.mpm.persistence import copy_of, state_of, take_over
 from mpmgeo.mpm.stages import Stages
 from mpmgeo.mpm.task import OnePhase
 from mpmgeo.numerics.clock import Clock
+from mpmgeo.state.checked import demand, number_from, whole_from
 from mpmgeo.state.grid import Grid
 from mpmgeo.state.inspection import first_unsound, kinetic_energy
 from mpmgeo.state.particles import ParticleSet, Population
@@ -177,16 +178,29 @@ class Solver(Stages):
     # What a run must hold to go on
 
     def owners(self):
-        """Return all that hold a part of the state, by the name that their part has."""
+        """Return all that hold a part of the state, by the name that their part has.
+
+        The solver comes last, for it looks whether the parts fit together.
+        """
         sets = {f"set{number}": s for number, s in enumerate(self.sets)}
         effects = {effect.name: effect for effect in self.effects}
-        return {"": self, "departures": self.departures, "grid": self.grid, **sets, **effects}
+        return {"departures": self.departures, "grid": self.grid, **sets, **effects, "": self}
 
     def held(self):
         """Return the solver's own part, by name."""
         return {name: getattr(self, name) for name in COUNTERS}
 
     def take(self, state):
-        """Go on with what `held` once returned."""
-        for name in COUNTERS:
-            setattr(self, name, state.pop(name))
+        """Go on with what `held` once returned; ValueError if the parts do not fit together."""
+        self.time = number_from(state, "time", least=0.0)
+        self.steps, self.gone = whole_from(state, "steps"), whole_from(state, "gone")
+        if (peak := state.pop("peak_energy")) is not None:
+            peak = number_from({"peak_energy": peak}, "peak_energy")
+        self.peak_energy = peak
+        blocks = len(self.grid.keys)
+        for s in self.sets:
+            unsorted = blocks == 0 and (self.gone > 0 or s.active == 0)
+            is_sound = unsorted or len(s.start) == blocks + 1
+            demand(is_sound, "grid.keys are not the blocks of the particles")
+        is_sound = all(d.rows.min() >= 0 and d.rows.max() < self.count for d in self.departures)
+        demand(is_sound, "departures are of particles that there are not")

@@ -5,6 +5,8 @@ from time import perf_counter
 
 from numba.core import event
 
+from mpmgeo.run.terminal import without_controls
+
 REFRESH = 0.2  # s between updates of the bar
 LINE = 10.0  # s between plain lines
 
@@ -99,6 +101,8 @@ class Progress:
         self._show(simulation, self._speed(simulation, now))
 
     def _speed(self, simulation, now):
+        if self._first_step is None:
+            return 0.0
         done = (simulation.steps - self._steps) * simulation.solver.count
         compiled = self.compilation.seconds - self._compiled
         return done / max(now - self._first_step - compiled, 1e-9) / 1e6
@@ -130,8 +134,10 @@ class Progress:
         self._messages = len(simulation.messages)
 
     def _print(self, line):
+        """Print a line that may hold words of the user, which are no markup."""
+        line = without_controls(line)
         if self._bar is not None and self._bar.live.is_started:
-            self._bar.console.print(line, highlight=False)
+            self._bar.console.print(line, highlight=False, markup=False, emoji=False)
             return
         print(line, file=self.stream, flush=True)
 
@@ -139,7 +145,7 @@ class Progress:
         """Close the bar and show where the time went."""
         now = perf_counter()
         if self._bar is not None:
-            self._show(simulation, self._speed(simulation, now) if self._first_step else 0.0)
+            self._show(simulation, self._speed(simulation, now))
             self._bar.stop()
         self._news(simulation)
         if error is None:
@@ -148,8 +154,10 @@ class Progress:
     def _table(self, simulation, now):
         from rich.console import Console
         from rich.table import Table
+        from rich.text import Text
 
-        table = Table(title=simulation.case.title or None, show_edge=False, header_style="")
+        title = Text(without_controls(simulation.case.title or ""), "table.title")
+        table = Table(title=title or None, show_edge=False, header_style="")
         table.add_column("stage")
         table.add_column("s", justify="right")
         table.add_column("ns/particle/step", justify="right")

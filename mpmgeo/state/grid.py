@@ -16,8 +16,9 @@ import numpy as np
 from mpmgeo.numerics.chunks import CHUNKS
 from mpmgeo.numerics.jit import inlined
 from mpmgeo.numerics.simd import LANES, aligned
+from mpmgeo.state.checked import array_from, demand
 from mpmgeo.state.field import Field, Lanes
-from mpmgeo.state.layout import SIDE, blocks_along, volume
+from mpmgeo.state.layout import NODES, SIDE, blocks_along, volume
 
 SOLID = Lanes(
     tile={"mass": (0, 1), "momentum": (1, 3), "force": (4, 3), "mass of tools": (7, 1)},
@@ -144,9 +145,20 @@ class Grid:
         return {"keys": self.keys, "records": self.records()}
 
     def take(self, state):
-        """Go on with what `held` once returned."""
-        self.cover(state.pop("keys").copy())
-        np.copyto(self.records(), state.pop("records"))
+        """Go on with what `held` once returned; ValueError for blocks that cannot be."""
+        keys = array_from(state, "keys", self.keys.dtype, (None,))
+        records = array_from(state, "records", np.float64, (self.blocks_under(keys), NODES, LANES))
+        self.cover(keys.copy())
+        np.copyto(self.records(), records)
+
+    def blocks_under(self, keys):
+        """Return how many blocks lie under the tiles of owners; ValueError if these cannot be."""
+        demand((keys[1:] > keys[:-1]).all(), "keys are not in order")
+        corner = corners_of(keys)
+        last = np.array([self.mesh.nx, self.mesh.ny, self.mesh.nz]) // SIDE
+        inside = ((corner >= -self.reach) & (corner <= last)).all()
+        demand(inside and (keys >= 0).all(), "keys name blocks outside the mesh")
+        return len(np.unique(keys_of(corner[:, None] + self._steps)))
 
     def nbytes(self):
         """Return the memory of all arrays [bytes]."""

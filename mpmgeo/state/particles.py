@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mpmgeo.state.checked import array_from, demand
 from mpmgeo.state.grid import cut
 
 ARRAYS = (
@@ -84,15 +85,18 @@ class ParticleSet:
 
     def take(self, state):
         """Go on with what `held` once returned; ValueError for arrays of other particles."""
-        for name, array in self.arrays().items():
-            found = state.pop(name)
-            if found.shape != array.shape or found.dtype != array.dtype:
-                raise ValueError(
-                    f"the snapshot has an array {found.dtype} {found.shape} where the case needs "
-                    f"{array.dtype} {array.shape}"
-                )
-            np.copyto(array, found)
-        self.start, self.chunk = state.pop("start").copy(), state.pop("chunk").copy()
+        given = {n: array_from(state, n, a.dtype, a.shape) for n, a in self.arrays().items()}
+        start = array_from(state, "start", self.start.dtype, (None,))
+        chunk = array_from(state, "chunk", self.chunk.dtype, self.chunk.shape)
+        rows = np.sort(given["row"]), np.sort(self.row)
+        demand(np.array_equal(*rows), "row holds other particles than those of the case")
+        is_sound = len(start) > 0 and start[0] == 0 and start[-1] <= len(self.row)
+        is_sound = is_sound and (start[1:] >= start[:-1]).all()  # differences may overflow
+        demand(is_sound, "start holds no bounds of the particles")
+        demand(np.array_equal(chunk, cut(start)), "chunk does not fit start")
+        for name, found in given.items():
+            np.copyto(getattr(self, name), found)
+        self.start, self.chunk = start.copy(), chunk.copy()
 
     def stop(self):
         """Set the velocities of the active particles to zero, of both phases."""

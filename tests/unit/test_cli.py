@@ -139,6 +139,20 @@ def test_ends_of_a_run(case_file, simulations, capsys, error, code, message):
     assert message in text_of(capsys)
 
 
+def test_errors_of_files_say_that_these_are_the_output(case_file, simulations, capsys):
+    simulations[0].ends_with = OSError(28, "No space left on device", "a.vtu")
+    assert cli.main(["case.json"]) == cli.BAD_INPUT
+    assert "a.vtu: No space left on device (this is the output of the run)" in text_of(capsys)
+    assert cli.main(["case.json", "--output", "case.json"]) == cli.BAD_INPUT
+    assert "case.json: File exists (this is the output of the run)" in text_of(capsys)
+
+
+def test_messages_do_not_steer_the_terminal(case_file, simulations, capsys):
+    simulations[0].ends_with = Diverged("[/b] \x1b[31m red")
+    assert cli.main(["case.json"]) == cli.DIVERGED
+    assert "error: [/b] \\x1b[31m red" in text_of(capsys)
+
+
 def test_interrupted_run(case_file, simulations):
     simulations[0].interrupted = True
     assert cli.main(["case.json"]) == cli.INTERRUPTED

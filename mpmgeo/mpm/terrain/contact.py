@@ -12,8 +12,10 @@ from mpmgeo.mpm.terrain.touch import COLUMNS, TOUCHING, Detect
 from mpmgeo.mpm.terrain.touch_legacy import LEVEL, Impel
 from mpmgeo.numerics.chunks import ALONE, CHUNKS
 from mpmgeo.numerics.triangle_tree import DEPTH, FACE
+from mpmgeo.state.checked import demand, number_from, vector_from
 
 LIGHT = 1e-6  # share of a particle's mass
+FARTHEST = 1e6  # cells by which a ground may move; beyond, blocks have no names
 CAUTION = 2.0  # for what contact does to the speeds, and for bends of the ground
 
 
@@ -109,8 +111,10 @@ class Contact(Effect):
         )
 
     def follow(self, motion, dt):
-        """Let the ground move for a step of the base."""
-        self.offset = tuple(u + dt * v for u, v in zip(self.offset, motion.after, strict=True))
+        """Let the ground move for a step of the base, as far as blocks have names."""
+        far = [FARTHEST * h for h in self.near.cell]
+        moved = (u + dt * v for u, v in zip(self.offset, motion.after, strict=True))
+        self.offset = tuple(max(-f, min(f, u)) for f, u in zip(far, moved, strict=True))
 
     def distance(self, x):
         """Return the signed distances (n,) [m] of points (n, 3) [m] to the ground as it lies.
@@ -170,7 +174,10 @@ class Contact(Effect):
 
     def take(self, state):
         """Go on with what `held` once returned."""
-        self.offset, self.way = tuple(state.pop("offset")), state.pop("way")
+        offset, self.way = vector_from(state, "offset"), number_from(state, "way", least=0.0)
+        far = max(abs(u) / h for u, h in zip(offset, self.near.cell, strict=True))
+        demand(far <= FARTHEST, f"offset moves the ground by {far:.3g} cells")
+        self.offset = offset
 
 
 class ContactAsMPMGeomechanics(Contact):
