@@ -5,6 +5,7 @@ import json
 import os
 import signal
 import sys
+import warnings
 from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
@@ -44,7 +45,7 @@ def main(argv=None) -> int:
         arguments = parse(argv)
     except SystemExit as stop:
         return stop.code or DONE
-    with _termination_as_interrupt():
+    with _termination_as_interrupt(), warnings.catch_warnings():
         try:
             examine()
             return serve(arguments)
@@ -124,8 +125,9 @@ def check(case, arguments) -> int:
 
 
 def _serve(arguments):
-    from mpmgeo.case.load import CaseError, load_case
+    from mpmgeo.case.load import CaseError, CaseWarning, load_case
 
+    warnings.simplefilter("ignore", CaseWarning)  # they are printed in the form of this program
     try:
         case = None
         if arguments.case is not None:
@@ -148,7 +150,6 @@ def _build(case, arguments, output):
 
     `case`: None for that of the snapshot to resume.
     """
-    from mpmgeo.case.building.lint import lint
     from mpmgeo.case.report import CaseError
     from mpmgeo.simulation import Simulation
 
@@ -157,17 +158,17 @@ def _build(case, arguments, output):
         if arguments.resume is None:
             simulation = Simulation(case, **options)
         else:
+            options["allow"] = arguments.allow
             simulation = Simulation.resume(arguments.resume, case, **options)
     except CaseError:
         raise
     except ValueError as error:
         raise CaseError([str(error)]) from error
     case = simulation.case
-    warnings = [] if simulation.goes_on else lint(simulation)
-    if warnings and arguments.strict:
-        raise CaseError(warnings)
-    _say_all("warning", warnings)
-    said = {*case.notes, *case.warnings, *warnings}
+    if simulation.warnings and arguments.strict:
+        raise CaseError(simulation.warnings)
+    _say_all("warning", simulation.warnings)
+    said = {*case.notes, *case.warnings, *simulation.warnings}
     if not arguments.quiet:
         _say_all("note", [text for text in simulation.messages if text not in said])
     return simulation
@@ -224,7 +225,9 @@ def _termination_as_interrupt():
 def _parse(argv):
     parser = argparse.ArgumentParser(
         prog="mpmgeo",
-        description="Simulate a JSON case with the explicit material point method.",
+        usage="mpmgeo [options] CASE\n       mpmgeo benchmark [--help] [options]",
+        description="Simulate a JSON case with the explicit material point method, "
+        "or measure its kernels: benchmark.",
         epilog="Exit codes: 0 done, 2 bad input, 3 the run diverged, 130 interrupted.",
     )
     parser.add_argument("words", metavar="CASE", nargs="*", help="the case file")
@@ -232,6 +235,13 @@ def _parse(argv):
     parser.add_argument("--output", metavar="DIR", help="folder of the results [working directory]")
     parser.add_argument(
         "--resume", metavar="FILE", help="go on from a snapshot; the case file is not needed"
+    )
+    parser.add_argument(
+        "--allow",
+        metavar="KEY",
+        action="append",
+        default=[],
+        help="with --resume: a key that CASE may have another value of, like gravity; repeatable",
     )
     parser.add_argument(
         "--threads", metavar="N", type=_thread_count, help="number of threads, before n_threads"
@@ -244,6 +254,8 @@ def _parse(argv):
     parser.add_argument("--version", action=_Version, nargs=0, help="print the version")
     arguments = parser.parse_args(argv)
     arguments.case = _case_of(parser, arguments)
+    if arguments.allow and not (arguments.resume and arguments.case):
+        parser.error("--allow goes with --resume and the case file that has the changes")
     arguments.output = arguments.output or _folder_of_run(arguments.resume)
     return arguments
 

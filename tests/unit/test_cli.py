@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from mpmgeo import cli
+from mpmgeo.case.building.lint import lint
 from mpmgeo.run.watch import Diverged
 
 
@@ -50,6 +51,10 @@ def simulations(monkeypatch):
             self.messages = ["a note of the simulation"]
             self.has_run = False
             made.append(self)
+
+        @property
+        def warnings(self):
+            return lint(self)
 
         def field(self, name):
             return {"position": np.zeros((1, 3)), "body": np.ones(1, dtype=np.uint32)}[name]
@@ -224,6 +229,11 @@ def test_wrong_command_lines(tmp_path, monkeypatch, words, message, capsys):
 def test_help(capsys):
     assert cli.main(["--help"]) == cli.DONE
     assert "Exit codes: 0 done, 2 bad input, 3 the run diverged, 130" in capsys.readouterr().out
+
+
+def test_help_names_the_subcommands(capsys):
+    assert cli.main(["--help"]) == cli.DONE
+    assert all(f"mpmgeo {command}" in capsys.readouterr().out for command in cli.COMMANDS)
 
 
 @pytest.mark.parametrize("option", ["--version", "--help"])

@@ -12,7 +12,7 @@ from mpmgeo.damping import LocalDamping
 from mpmgeo.loads import LOADS
 from mpmgeo.mpm.schemes import SCHEMES
 from mpmgeo.mpm.solver import Solver
-from mpmgeo.shapes import SHAPES
+from mpmgeo.shapes import AS_MPM_GEOMECHANICS, SHAPES
 from mpmgeo.state.grid import Grid, Mesh
 
 TOUCH = 1e-12  # cells by which a particle must reach over a node; less is round-off
@@ -27,8 +27,9 @@ def build(case):
     case = in_mesh(case, case.mesh.origin)
     population, velocity, law = populate(case, notes)
     mesh = Mesh.of(case.mesh.cells_dimension, case.mesh.cells_number)
-    shape = SHAPES[case.shape_function]
     legacy = case.compatibility is not None
+    shapes = SHAPES | AS_MPM_GEOMECHANICS if legacy else SHAPES
+    shape = shapes[case.shape_function]
     damping, early = _damping(case)
     tools, tool = bind_tools(case, population, velocity)
     contact = bind_terrain(case, mesh, shape.width, population, notes)

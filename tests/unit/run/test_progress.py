@@ -1,16 +1,16 @@
-"""What is shown of a run: words of the user are never markup, and a run may have no steps."""
+"""What a terminal shows of a run: the time left at any width, and that kernels are compiled."""
 
 import io
-import json
+import re
+from types import SimpleNamespace
 
 import pytest
-from assembly import simulate, two_blocks
+from rich.console import Console
 
-from mpmgeo import cli
+from mpmgeo.numerics.clock import Clock
+from mpmgeo.run import progress
+from mpmgeo.run.bar import Bar, clock
 from mpmgeo.run.progress import Compilation, Progress
-from mpmgeo.run.terminal import without_controls
-
-TITLES = ["[/b]", "bulk modulus [kg]", "[link=x]a[/link] :smile:", "red \x1b[31m and \x07 bell"]
 
 
 class Terminal(io.StringIO):
@@ -20,56 +20,127 @@ class Terminal(io.StringIO):
         return True
 
 
-def progress(simulation, stream, message=None):
-    """Run a simulation and return what is shown of it."""
+class Simulation:
+    """Steps of 0.01 s of a million particles, without any."""
 
-    class Messenger:
-        def begin(self, simulation):
-            pass
+    def __init__(self):
+        self.case = SimpleNamespace(time=10.0, title="")
+        self.solver = SimpleNamespace(count=1_000_000, clock=Clock())
+        self.steps, self.messages, self.threads = 0, [], 1
 
-        def after_step(self, simulation):
-            if message and simulation.steps == 2:
-                simulation.say(message)
+    @property
+    def time(self):
+        return 0.01 * self.steps
 
-        def end(self, simulation, error):
-            pass
-
-    with Compilation(lambda: None) as compilation:
-        simulation.run(watchers=[Messenger(), Progress(compilation, stream)])
-    return stream.getvalue()
+    def kinetic_energy(self):
+        return 1234.5
 
 
-@pytest.mark.parametrize("title", TITLES)
-@pytest.mark.parametrize("stream", [io.StringIO, Terminal])
-def test_a_title_is_shown_as_it_is(title, stream):
-    simulation = simulate(two_blocks(time=0.0095, title=title))
-    assert without_controls(title) in progress(simulation, stream())
+@pytest.fixture
+def now(monkeypatch):
+    """A clock that stands still until a test sets `now.seconds`."""
+    now = SimpleNamespace(seconds=1000.0)
+    monkeypatch.setattr(progress, "perf_counter", lambda: now.seconds)
+    return now
 
 
-@pytest.mark.parametrize("stream", [io.StringIO, Terminal])
-def test_a_message_is_shown_as_it_is(stream):
-    simulation = simulate(two_blocks(time=0.0095))
-    assert "note: [/b] [kg] :smile:" in progress(simulation, stream(), "[/b] [kg] :smile:")
+@pytest.fixture
+def columns(monkeypatch):
+    """A function that sets the width of the terminal."""
+    monkeypatch.setenv("TERM", "xterm")
+    return lambda width: monkeypatch.setenv("COLUMNS", str(width))
 
 
-@pytest.mark.parametrize("stream", [io.StringIO, Terminal])
-def test_a_run_that_is_at_its_end_has_no_speed(stream):
-    simulation = simulate(two_blocks(time=0.0095)).run()
-    assert "10 steps, 96 particles" in progress(simulation, stream())
+@pytest.fixture
+def watch():
+    """A function that returns a watcher of a simulation, and closes its bar after the test."""
+    watchers = []
+
+    def watch(simulation, stream):
+        watchers.append((Progress(Compilation(lambda: None), stream), simulation))
+        watchers[-1][0].begin(simulation)
+        return watchers[-1][0]
+
+    yield watch
+    for watcher, simulation in watchers:
+        watcher.end(simulation, RuntimeError())
 
 
-def test_control_characters_are_spelled_out():
-    assert without_controls("a\x1b[0m\tb\x9bc\nä") == "a\\x1b[0m\\x09b\\x9bc\nä"
+def shown(watcher, width):
+    """Return the line of a watcher as the terminal shows it now."""
+    screen = Console(file=io.StringIO(), width=width)
+    screen.print(watcher._bar._progress.get_renderable())
+    lines = screen.file.getvalue().splitlines()
+    assert len(lines) == 1
+    return lines[0]
 
 
-def test_a_finished_run_may_be_resumed(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    case = two_blocks(time=0.0095, snapshot={"every": 5}, title="[/b] [kg]")
-    (tmp_path / "case.json").write_text(json.dumps(case))
-    assert cli.main(["case.json", "--output", "out"]) == cli.DONE
-    assert "[/b] [kg]" in capsys.readouterr().err
-    files = {p: p.read_bytes() for p in (tmp_path / "out").rglob("*") if p.is_file()}
-    assert cli.main(["--resume", "out/snapshots/snapshot_10.npz"]) == cli.DONE
-    said = capsys.readouterr().err
-    assert "Traceback" not in said and "the run is at its end already" in said
-    assert {p: p.read_bytes() for p in (tmp_path / "out").rglob("*") if p.is_file()} == files
+def steps(watcher, simulation, now, count, seconds):
+    """Do steps that take some seconds together."""
+    for _ in range(count):
+        simulation.steps += 1
+        now.seconds += seconds / count
+        watcher.after_step(simulation)
+
+
+@pytest.mark.parametrize("width", [40, 60, 76, 80, 100, 120, 200])
+def test_the_time_left_stays_at_any_width(now, columns, watch, width):
+    columns(width)
+    simulation = Simulation()
+    watcher = watch(simulation, Terminal())
+    simulation.steps = 1
+    watcher.after_step(simulation)
+    steps(watcher, simulation, now, 499, 499 * 7.5)
+    line = shown(watcher, width)
+    assert len(line.rstrip()) <= width and "…" not in line
+    assert "step 500" in line and " 50% " in line and "1:02:30 left" in line
+    assert ("M particle-steps/s" in line) == (width >= 76)
+    assert ("Ekin 1.23" in line) == (width >= 100)
+
+
+def test_the_line_says_that_kernels_are_compiled_and_moves(now, columns, watch):
+    columns(80)
+    simulation = Simulation()
+    watcher = watch(simulation, Terminal())
+    assert "-:--:-- left" in shown(watcher, 80)
+    watcher.compilation.on_start(None)
+    seen = []
+    for _ in range(3):
+        now.seconds += 4
+        seen.append(re.search(r"compiling, \d+ s", shown(watcher, 80))[0])
+    assert seen == ["compiling, 4 s", "compiling, 8 s", "compiling, 12 s"]
+    watcher.compilation.on_end(None)
+    assert "compiling" not in shown(watcher, 80)
+
+
+@pytest.mark.parametrize("stream", [Terminal, io.StringIO])
+def test_the_first_estimate_leaves_compilation_out(now, columns, watch, stream):
+    """A kernel that the second step needs takes a minute; steps take 1 s, and 998 are left."""
+    columns(80)
+    simulation, file = Simulation(), stream()
+    watcher = watch(simulation, file)
+    steps(watcher, simulation, now, 1, 1.0)
+    watcher.compilation.on_start(None)
+    now.seconds += 60
+    watcher.compilation.on_end(None)
+    steps(watcher, simulation, now, 1, 1.0)
+    line = file.getvalue() if stream is io.StringIO else shown(watcher, 80)
+    assert ("998 s left" if stream is io.StringIO else "0:16:38 left") in line
+    assert "1.00 M particle-steps/s" in line
+
+
+def test_a_bar_prints_lines_as_they_are(columns):
+    columns(80)
+    file = Terminal()
+    bar = Bar(file, 1.0, Compilation(lambda: None))
+    bar.print("note: a title with [/b] and [kg]")
+    bar.stop()
+    assert "note: a title with [/b] and [kg]" in file.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("seconds", "text"),
+    [(0.4, "0:00:00"), (59.6, "0:01:00"), (3_725, "1:02:05"), (4e5, "111:06:40")],
+)
+def test_clock(seconds, text):
+    assert clock(seconds) == text
