@@ -72,14 +72,12 @@ class Simulation:
         of them, here and in later snapshots. Raises ValueError if the snapshot cannot be used or is
         not of the case.
         """
-        from mpmgeo.case.resume import branch_of
+        from mpmgeo.case.resume import branch_of, record_of, remarks_on, topics_of
         from mpmgeo.mpm.persistence import take_snapshot
         from mpmgeo.state.snapshot import StoredSnapshot
 
         snapshot = StoredSnapshot(path)
-        told = snapshot.facts.get("told")
-        if not (isinstance(told, list) and all(isinstance(topic, str) for topic in told)):
-            raise ValueError(f"{path}: is no snapshot of a run")
+        told = topics_of(path, snapshot.facts)
         if case is not None and not isinstance(case, Case):
             case = load_case(case)
         case, changed = branch_of(path, snapshot.facts, case, allow)
@@ -87,21 +85,12 @@ class Simulation:
         simulation._build(replace(case, load_state=False), output, threads)
         simulation.case = case
         take_snapshot(simulation.solver, snapshot)
-        simulation._told = set(told)
+        simulation._told = told
         simulation.goes_on = True
-        simulation.changes = [*snapshot.facts.get("changes", ()), *simulation._change(changed)]
-        if simulation.time >= case.time:
-            simulation.say(
-                f"the run is at its end already, {case.time:.6g} s; it goes on if a case says a "
-                "later time"
-            )
+        simulation.changes = [*snapshot.facts.get("changes", ()), *record_of(simulation, changed)]
+        for remark in remarks_on(simulation, changed):
+            simulation.say(remark)
         return simulation
-
-    def _change(self, values):
-        """Return what there is to record of values that changed now, a list."""
-        for key, (old, new) in values.items():
-            self.say(f"{key}: {new} from {self.time:.6g} s on, {old} before")
-        return [{"time": self.time, "steps": self.steps, "values": values}] if values else []
 
     def save(self, path):
         """Write a snapshot of the complete state."""

@@ -70,3 +70,29 @@ def _is_within(key, parts):
 def _is_settled(key):
     material = key.startswith("materials") and key.rpartition(".")[2] in SETTLED_OF_MATERIALS
     return material or _is_within(key, SETTLED)
+
+
+def topics_of(path, facts) -> set:
+    """Return what the user has been told of in earlier parts of a run; ValueError for no snapshot."""
+    told = facts.get("told")
+    if not (isinstance(told, list) and all(isinstance(topic, str) for topic in told)):
+        raise ValueError(f"{path}: is no snapshot of a run")
+    return set(told)
+
+
+def record_of(simulation, changed) -> list:
+    """Return what snapshots record of values that changed when a run went on."""
+    if not changed:
+        return []
+    return [{"time": simulation.time, "steps": simulation.steps, "values": changed}]
+
+
+def remarks_on(simulation, changed):
+    """Yield what to tell of a run that goes on: values that changed, or that it is at its end."""
+    for key, (old, new) in changed.items():
+        yield f"{key}: {new} from {simulation.time:.6g} s on, {old} before"
+    if simulation.time >= simulation.case.time:
+        yield (
+            f"the run is at its end already, {simulation.case.time:.6g} s; "
+            "it goes on if a case says a later time"
+        )

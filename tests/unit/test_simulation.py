@@ -9,7 +9,9 @@ import mpmgeo
 
 
 def test_public_names():
-    assert set(mpmgeo.__all__) <= set(dir(mpmgeo)) | {"CaseError", "Simulation", "load_case"}
+    assert {"CaseError", "Simulation", "load_case"} <= set(mpmgeo.__all__)
+    assert all(callable(getattr(mpmgeo, name)) for name in mpmgeo.__all__)
+    assert set(mpmgeo.__all__) <= set(dir(mpmgeo))
     assert mpmgeo.Simulation.__name__ == "Simulation"
     with pytest.raises(AttributeError, match="nothing"):
         _ = mpmgeo.nothing
