@@ -25,3 +25,8 @@ def __getattr__(name):
     found = getattr(import_module(_HOMES[name]), name)
     globals()[name] = found
     return found
+
+
+def __dir__():
+    """Name the public names also before they are used."""
+    return sorted({*globals(), *_HOMES})

@@ -41,7 +41,6 @@ class Simulation:
     def __init__(self, case, output=None, threads=None):
         self._build(case if isinstance(case, Case) else load_case(case), output, threads)
         self.warnings = lint(self)
-        self.messages += self.warnings
         show(self.warnings)
 
     def _build(self, case, output, threads):

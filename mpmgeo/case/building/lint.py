@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from mpmgeo.case.building.limits import limits
 from mpmgeo.case.coordinates import in_mesh
 from mpmgeo.case.spec import ACTIONS
 from mpmgeo.positions import shown
@@ -34,6 +35,7 @@ def lint(simulation) -> list[str]:
         *_probes(case),
         *_terrain(case),
         *_record(case, simulation.time_step),
+        *limits(case),
     ]
 
 

@@ -149,6 +149,32 @@ def test_probes_outside_the_mesh(case):
     assert warning == "results.probes, tip: the point [2.0, 2.001, 2.0] is outside the mesh"
 
 
+def rock(case, young, **keys):
+    """Return a case with a second body, of rock, on the first one."""
+    case["materials"]["rock"] = case["materials"]["soil"] | {"id": 7, "young": young}
+    low, high = {"point_p1": [0, 0, 1]}, {"point_p2": [1, 1, 2]}
+    case["body"]["lid"] = case["body"]["block"] | low | high | {"material_id": 7}
+    return case | keys
+
+
+def test_contrasts_of_stiffness(case):
+    (warning,) = lint(simulation_of(rock(case, 1e9)))
+    assert warning.startswith("materials: 7 is 1e+03 times as stiff as 1; where they meet, GIMP")
+
+
+@pytest.mark.parametrize("young", [1e4 * 4, 1e6, 2e7])
+def test_materials_of_like_stiffness(case, young):
+    assert lint(simulation_of(rock(case, young))) == []
+
+
+def test_contrasts_that_do_no_harm(case):
+    """Where the shape does not smear them, or only one of the materials is there."""
+    linear = {"shape_function": "linear", "stress_scheme_update": "MUSL"}
+    assert lint(simulation_of(rock(case, 1e9, **linear))) == []
+    case["body"]["lid"]["active"] = False
+    assert lint(simulation_of(case)) == []
+
+
 @pytest.mark.parametrize("frequency", [1.0, 3.5, 40.0])
 def test_significant_frequency_of_a_sine(frequency):
     time = np.linspace(0, 10, 2001)

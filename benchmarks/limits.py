@@ -1,0 +1,81 @@
+"""What plain MPM cannot do, in numbers: the figures of manual/limits.md.
+
+python benchmarks/limits.py [layers] [bar] [spin] [linear]
+"""
+
+import sys
+import warnings
+
+import mpmgeo
+from mpmgeo.run.watch import Diverged
+from mpmgeo.verify import limits
+
+SCHEMES = ("USL", "MUSL", "USF")
+OFFSETS = (0.0, 0.013)  # m
+
+
+def keys(scheme, shape):
+    return {"stress_scheme_update": scheme, "shape_function": shape}
+
+
+def layers():
+    """Print the error of stress for ratios of stiffness."""
+    for scheme, shape in (("USL", "GIMP"), ("MUSL", "GIMP"), ("MUSL", "linear")):
+        for stiff in ("lower", "upper"):
+            for ratio in (1, 10, 100, 1e3, 1e4):
+                case = limits.layers(ratio, stiff, **keys(scheme, shape))
+                error = limits.error_in_layers(mpmgeo.Simulation(case).run())
+                print(f"{scheme} {shape}, stiff {stiff}, {ratio:g}: ", end="")
+                print(", ".join(f"{e:.3f} {layer}" for layer, e in error.items()), flush=True)
+
+
+def bar():
+    """Print the share of stress for strains."""
+    for count in (1, 2, 3):
+        for scheme, shape in (("USL", "GIMP"), ("MUSL", "GIMP"), ("MUSL", "linear")):
+            simulation = mpmgeo.Simulation(limits.bar(count, **keys(scheme, shape)))
+            shares = []
+            for strain in (0.04, 0.08, 0.15, 0.2, 0.3, 0.5, 0.7):
+                share = limits.share_of_stress(simulation.run(until=strain / 0.2))
+                shares.append(f"{share:.2f} at {strain:g}")
+            print(f"{scheme} {shape}, {count} a cell: {', '.join(shares)}", flush=True)
+
+
+def spin():
+    """Print the share of angular momentum after half a turn, one and three."""
+    plain = [(s, f, 2, 1) for f in ("GIMP", "linear") for s in SCHEMES]
+    for scheme, shape, count, fine in (*plain, ("USL", "GIMP", 4, 1), ("USL", "GIMP", 2, 2)):
+        case = limits.square(fine=fine, **keys(scheme, shape))
+        case["body"][0]["particles_per_direction"] = 3 * [count]
+        simulation = mpmgeo.Simulation(case)
+        start, shares = limits.spin(simulation), []
+        try:
+            for turns in (0.5, 1, 3):
+                simulation.run(until=turns * case["time"] / 3)
+                shares.append(f"{limits.angular_momentum(simulation) / start:.2f}")
+        except Diverged:
+            shares.append("diverged")
+        print(f"{scheme} {shape}, {count} along an edge, {4 * fine} cells: ", *shares, flush=True)
+
+
+def linear():
+    """Print when USL with linear diverges: a block that falls on a floor, a square that spins."""
+    for share in (0.5, 0.25, 0.1, 0.05, 0.02):
+        more = {"critical_time_step_multiplier": share, **keys("USL", "linear")}
+        falling = {f"falls, {offset:g} m off": limits.block(offset, **more) for offset in OFFSETS}
+        for name, case in (falling | {"spins": limits.square(**more)}).items():
+            simulation = mpmgeo.Simulation(case)
+            if name == "spins":
+                limits.spin(simulation)
+            try:
+                simulation.run()
+                end = f"runs for {simulation.time:.3g} s"
+            except Diverged:
+                end = f"diverges after {simulation.time:.3g} s"
+            print(f"USL linear, {share:g} of the critical step, {name}: {end}", flush=True)
+
+
+if __name__ == "__main__":
+    warnings.simplefilter("ignore", mpmgeo.CaseWarning)
+    for name in sys.argv[1:] or ("layers", "bar", "spin", "linear"):
+        globals()[name]()
