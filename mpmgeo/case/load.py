@@ -9,7 +9,7 @@ from mpmgeo.case.meaning.draft import draft
 from mpmgeo.case.reading.aliases import rename
 from mpmgeo.case.reading.explain import validate
 from mpmgeo.case.reading.inactive import drop_inactive
-from mpmgeo.case.reading.text import read, survey
+from mpmgeo.case.reading.text import read, survey, survey_moved
 from mpmgeo.case.report import CaseError, Report
 from mpmgeo.case.spec import Case
 
@@ -43,6 +43,7 @@ def _tree(source, report):
         report.raise_errors()
     rename(tree, report)
     drop_inactive(tree, report)
+    survey_moved(tree, report)
     validate(tree, report)
     return tree
 
