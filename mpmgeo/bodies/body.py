@@ -47,7 +47,7 @@ class Body:
 class Filled(Body, Placed):
     """A geometry that is filled with particles of one material; subclasses `generate` them."""
 
-    material_id: int = parameter("Number of the material the body consists of")
+    material_id: int = parameter("Number of the material the body consists of", names="materials")
     particles_per_direction: Counts = parameter(
         "Number of particles along each edge of a cell", minimum=1, default=(2, 2, 2)
     )

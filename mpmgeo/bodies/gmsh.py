@@ -24,7 +24,8 @@ class Gmsh(Body, Placed):
     mesh_file: Path = parameter("Mesh of Gmsh, version 2.2 or 4.1, text or binary", file=True)
     physical_to_material: dict[str, int] = parameter(
         "Name of a physical group of volumes, or its number in quotes if it has no name → number "
-        "of its material; 0 or less: left out"
+        "of its material; 0 or less: left out",
+        names="materials",
     )
     particle_distribution: str = parameter(
         "Where the particles of an element are: one in its middle, one at each Gauss point, or as "
