@@ -53,6 +53,11 @@ class Filled(Body, Placed):
     )
 
     @property
+    def fullness(self) -> float:
+        """Return about which share of the positions of the lattice becomes particles."""
+        return 1.0
+
+    @property
     def materials(self) -> dict[int, tuple]:
         """Return the materials in use, each with the keys that name it."""
         return {self.material_id: ("material_id",)}
@@ -63,6 +68,10 @@ class Filled(Body, Placed):
             self.lattice(cell)
         except ValueError as error:
             yield (), str(error)
+
+    def holds(self, position: np.ndarray, cell: np.ndarray) -> np.ndarray:
+        """Tell which of the positions (n, 3) [m] lie in what particles fill, if that is known."""
+        return np.zeros(len(position), bool)
 
     def clouds(self, cell: np.ndarray) -> tuple[Cloud, ...]:
         """Return the particles of the one body."""

@@ -53,6 +53,13 @@ class Polygon2D(Filled):
                 text = f"the edge {one} is there once more {other}"
             yield "points", f"{text}; what an outline encloses twice is left empty (even-odd rule)"
 
+    @property
+    def fullness(self) -> float:
+        """Return about which share of the positions of the lattice becomes particles."""
+        h, v = (self._corners - self._corners[0]).T
+        area = 0.5 * abs(h @ np.roll(v, -1) - v @ np.roll(h, -1))
+        return min(area / np.ptp(self._corners, axis=0).prod(), 1.0)
+
     def lattice(self, cell: np.ndarray) -> Lattice:
         """Return the candidate positions; raises ValueError if there are too many."""
         edge = self.discretization_length or float(np.mean(cell))
@@ -61,6 +68,14 @@ class Polygon2D(Filled):
         extent[self._along] = self.extrude_displacement
         start, per_cell = list(map(min, axes)), self.particles_per_direction
         return Lattice.over(start, extent, 3 * [edge], per_cell, self.zero)
+
+    def holds(self, position: np.ndarray, cell: np.ndarray) -> np.ndarray:
+        """Tell which of the positions (n, 3) [m] lie in the prism."""
+        lattice = self.lattice(cell)
+        plane = [(self._along + 1) % 3, (self._along + 2) % 3]
+        nudge = np.maximum(ROUND_OFF * lattice.cell, self._resolution)[plane]
+        inside = contains(self._corners, *position[:, plane].T, nudge=nudge)
+        return inside & lattice.covers(position)
 
     def generate(self, cell: np.ndarray) -> Cloud:
         """Return the particles whose centres lie inside the polygon; `cell` (3,) is in m."""

@@ -1,9 +1,12 @@
 """Physics checks before a run: what is possible, but hardly meant."""
 
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 
+from mpmgeo.case.building.overlap import overlaps
+from mpmgeo.case.building.proportions import out_of_proportion
 from mpmgeo.case.coordinates import in_mesh
 from mpmgeo.case.spec import ACTIONS
 from mpmgeo.positions import shown
@@ -34,6 +37,8 @@ def lint(simulation) -> list[str]:
         *_probes(case),
         *_terrain(case),
         *_record(case, simulation.time_step),
+        *out_of_proportion(case, position, body, simulation.time_step),
+        *overlaps(case, position, body, partial(simulation.field, "mass")),
     ]
 
 

@@ -6,6 +6,7 @@ from mpmgeo.boundaries.terrain import TerrainContact
 from mpmgeo.case.kinds import containers
 from mpmgeo.case.meaning.bodies import check_bodies, check_materials
 from mpmgeo.case.meaning.phases import check_phases, note_idle
+from mpmgeo.case.meaning.slips import warn_of_slips
 from mpmgeo.case.meaning.steps import check_steps
 from mpmgeo.case.spec import ACTIONS, Case
 from mpmgeo.loads import BaseAcceleration, PrescribedVelocity
@@ -27,6 +28,7 @@ def check(draft, report):
     _check_base(draft, report)
     check_phases(draft, report)
     note_idle(draft, report)
+    warn_of_slips(draft, report)
 
 
 def _actions(draft):
