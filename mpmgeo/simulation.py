@@ -16,9 +16,11 @@ from mpmgeo.naming import GHOSTS, PLANES
 from mpmgeo.numerics.jit import remarks
 from mpmgeo.output.final_stress import FinalStress
 from mpmgeo.output.histories import Histories, histories_of
+from mpmgeo.output.leftovers import SNAPSHOTS, STRESS_FILE, TERRAIN, Leftovers
 from mpmgeo.output.particle_fields import particle_field
 from mpmgeo.run.diagnosis import diagnose
 from mpmgeo.run.loop import run
+from mpmgeo.run.losses import Losses
 from mpmgeo.run.snapshots import Snapshots
 from mpmgeo.run.watch import Diverged, Guard
 
@@ -113,12 +115,11 @@ class Simulation:
         sound one. The first Ctrl-C ends the run after a whole step and sets `interrupted`.
         """
         every = self.output_interval
-        watchers = [Guard(every), *self._files(every), *watchers]
+        watchers = [Guard(every), *self._files(every), Losses(), *watchers]
         try:
             run(self, self.case.time if until is None else until, watchers)
         finally:
             self.goes_on = True
-            self._report_departures()
         return self
 
     def _files(self, every):
@@ -133,7 +134,17 @@ class Simulation:
             files.append(FinalStress(self.output))
         if self.case.snapshot is not None:
             files.append(Snapshots(self.output, self.case.snapshot, self._histories))
-        return files
+        return [Leftovers(self.output, self._written()), *files]
+
+    def _written(self):
+        """Return files and folders, among those that only some cases have, that this one has."""
+        written = [history.path for history in self._histories]
+        asked = (
+            (self.case.save_state, STRESS_FILE),
+            (self.case.snapshot is not None, SNAPSHOTS),
+            (self.solver.ground is not None, TERRAIN),
+        )
+        return written + [self.output / name for is_asked, name in asked if is_asked]
 
     def step(self, steps=1):
         """Advance by some steps; returns the simulation."""
@@ -158,12 +169,6 @@ class Simulation:
         new = topic not in self._told
         self._told.add(topic)
         return new
-
-    def _report_departures(self):
-        count = sum(len(d.rows) for d in self.solver.departures)
-        if count:
-            last = self.solver.departures[-1].time
-            self.say(f"{count} particles left the mesh, the last of them after {last:.6g} s")
 
     def arrange(self):
         """Bring the particles in the order that looking for them by place needs."""

@@ -57,8 +57,7 @@ class Progress:
         self.compilation.clock = simulation.solver.clock
         self._start = self._shown = perf_counter()
         self._first_step = None
-        self._steps = 0
-        self._begun = simulation.steps
+        self._work = self._first_work = 0  # steps of active particles
         self._messages = len(simulation.messages)
         if self.live:
             self._begin_bar(simulation)
@@ -87,19 +86,20 @@ class Progress:
         """Show the state if it is time to."""
         if len(simulation.messages) > self._messages:
             self._news(simulation)
+        self._work += sum(s.active for s in simulation.solver.sets)
         now = perf_counter()
         if self._first_step is None:
             self._first_step = self._shown = now
             self._compiled = self.compilation.seconds
-            self._steps, self._first_time = simulation.steps, simulation.time
+            self._first_work, self._first_time = self._work, simulation.time
             return
         if now - self._shown < (REFRESH if self.live else LINE):
             return
         self._shown = now
-        self._show(simulation, self._speed(simulation, now))
+        self._show(simulation, self._speed(now))
 
-    def _speed(self, simulation, now):
-        done = (simulation.steps - self._steps) * simulation.solver.count
+    def _speed(self, now):
+        done = self._work - self._first_work
         compiled = self.compilation.seconds - self._compiled
         return done / max(now - self._first_step - compiled, 1e-9) / 1e6
 
@@ -139,7 +139,7 @@ class Progress:
         """Close the bar and show where the time went."""
         now = perf_counter()
         if self._bar is not None:
-            self._show(simulation, self._speed(simulation, now) if self._first_step else 0.0)
+            self._show(simulation, self._speed(now) if self._first_step else 0.0)
             self._bar.stop()
         self._news(simulation)
         if error is None:
@@ -153,14 +153,14 @@ class Progress:
         table.add_column("stage")
         table.add_column("s", justify="right")
         table.add_column("ns/particle/step", justify="right")
-        work = max((simulation.steps - self._begun) * simulation.solver.count, 1)
+        work = max(self._work, 1)
         for stage, seconds in simulation.solver.clock.seconds.items():
             table.add_row(stage, f"{seconds:.2f}", f"{seconds / work * 1e9:.1f}")
         console = Console(file=self.stream, highlight=False)
         console.print(table)
         self._print(
             f"{simulation.steps} steps, {simulation.solver.count} particles, "
-            f"{now - self._start:.2f} s, {self._speed(simulation, now):.2f} M particle-steps/s, "
+            f"{now - self._start:.2f} s, {self._speed(now):.2f} M particle-steps/s, "
             f"compilation {self.compilation.seconds:.1f} s, "
             f"peak memory {peak_memory() / 2**20:.0f} MiB, {simulation.threads} thread(s)"
         )
