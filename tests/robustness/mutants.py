@@ -41,7 +41,7 @@ def change(tree, rng):
     """Change one value or key of a tree, which has some."""
     parent, key = rng.choice(list(places(tree)))
     value, how = parent[key], rng.randrange(10)
-    if how < 5 and isinstance(value, int | float):
+    if how < 5 and isinstance(value, int | float) and abs(value) < 1e300:
         parent[key] = value * rng.choice(FACTORS)
     elif how < 6:
         del parent[key]
@@ -65,7 +65,8 @@ def spoil(content, rng):
 
 
 class Mutants:
-    """Mutants of a case in a folder of their own; each begins with the sound files."""
+    """Mutants of a case in a folder of their own, which has to be the working directory; each
+    begins with the sound files."""
 
     def __init__(self, name, folder):
         self.folder = folder / name
@@ -84,19 +85,16 @@ class Mutants:
         return sorted(path for path in self.folder.iterdir() if path.suffix in DATA)
 
     def make(self, seed):
-        """Write the mutant of a number; return the path of its case file."""
+        """Make the mutant of a number; return its case, or the path of its case file."""
         rng = random.Random(seed)
         if self._changed is not None:
             self._changed.write_bytes(self.sound[self._changed])
-        other = [path for path in self.sound if path != self.case]
-        self._changed = rng.choice(other) if other and rng.random() < 0.2 else self.case
-        if self._changed != self.case:
+        self._changed = None
+        if rng.random() < 0.15:
+            self._changed = rng.choice(list(self.sound))
             self._changed.write_bytes(spoil(self.sound[self._changed], rng))
-        elif rng.random() < 0.1:
-            self.case.write_bytes(spoil(self.sound[self.case], rng))
-        else:
-            tree = copy.deepcopy(self.tree)
-            for _ in range(rng.choice((1, 1, 2, 3))):
-                change(tree, rng)
-            self.case.write_text(json.dumps(tree))
-        return self.case
+            return self.case
+        tree = copy.deepcopy(self.tree)
+        for _ in range(rng.choice((1, 1, 2, 3))):
+            change(tree, rng)
+        return tree

@@ -1,5 +1,6 @@
 """Whatever happens to a file of a case that ships: it runs or is refused, in time and in memory."""
 
+import os
 import sys
 from time import perf_counter
 
@@ -29,10 +30,10 @@ def kind(solver):
     return sets, models, type(solver.shape), solver.scheme, type(solver.planes), solver.small
 
 
-def try_one(path, known, steps):
+def try_one(source, known, steps):
     """Load, build and perhaps step a mutant; return whether it came that far."""
     try:
-        case = load_case(path)
+        case = load_case(source)
         simulation = mpmgeo.Simulation(case)
         lint(simulation)
         if steps and kind(simulation.solver) == known:
@@ -47,6 +48,7 @@ def try_one(path, known, steps):
 
 def run(name, folder, seeds):
     mutants = Mutants(name, folder)
+    os.chdir(mutants.folder)
     known = kind(mpmgeo.Simulation(load_case(mutants.case)).solver)
     ran = 0
     for seed in seeds:
@@ -61,8 +63,9 @@ def run(name, folder, seeds):
 
 
 @pytest.fixture(autouse=True)
-def little_memory(monkeypatch):
-    """Let cases be refused that need more memory than the bound."""
+def little_memory(monkeypatch, tmp_path):
+    """Let cases be refused that need more memory than the bound; go back to where we are."""
+    monkeypatch.chdir(tmp_path)
     before = peak_memory()
     monkeypatch.setattr(sizes, "memory_of_machine", lambda: LARGEST / 2)
     yield

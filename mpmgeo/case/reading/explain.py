@@ -1,5 +1,7 @@
 """What the JSON Schema finds wrong in a case, in words that help to put it right."""
 
+from functools import cache
+
 from mpmgeo.case.reading.aliases import FIELD_LISTS, OBSOLETE
 from mpmgeo.case.reading.schema import CONTAINERS, INTEGERS, case_schema
 from mpmgeo.case.reading.words import meant
@@ -28,10 +30,9 @@ NOUNS = {
 
 def validate(tree, report):
     """Report everything in a tree of canonical keys that the schema does not allow."""
-    from jsonschema import Draft202012Validator
-
-    schema = case_schema()
-    for error in Draft202012Validator(schema).iter_errors(tree):
+    validator = _validator()
+    schema = validator.schema
+    for error in validator.iter_errors(tree):
         path = tuple(error.absolute_path)
         if error.validator == "additionalProperties":
             _unknown(error, path, schema, report)
@@ -39,6 +40,14 @@ def validate(tree, report):
             _missing(error, path, schema, report)
         else:
             _wrong(error, path, schema, report)
+
+
+@cache
+def _validator():
+    """Return what looks at trees; made once, which takes as long as looking at one."""
+    from jsonschema import Draft202012Validator
+
+    return Draft202012Validator(case_schema())
 
 
 def place_of(path) -> tuple[str, ...]:
