@@ -35,6 +35,10 @@ class Body:
         """Yield (keys, message) for all that only files and the cells, `cell` (3,) [m], show."""
         yield from ()
 
+    def demand(self, cell: np.ndarray) -> tuple[float, float]:
+        """Return about how many positions are looked at and particles made, 0 if files tell."""
+        return 0.0, 0.0
+
     def clouds(self, cell: np.ndarray) -> tuple[Cloud, ...]:
         """Return the particles of each numbered body; `cell` (3,) is in m.
 
@@ -61,6 +65,11 @@ class Filled(Body, Placed):
     def materials(self) -> dict[int, tuple]:
         """Return the materials in use, each with the keys that name it."""
         return {self.material_id: ("material_id",)}
+
+    def demand(self, cell: np.ndarray) -> tuple[float, float]:
+        """Return how many positions the lattice has, and about how many become particles."""
+        number = self.lattice(cell).number
+        return number, self.fullness * number
 
     def complaints(self, cell: np.ndarray) -> Iterator[tuple[tuple, str]]:
         """Yield (keys, message) if the geometry cannot be filled with particles."""

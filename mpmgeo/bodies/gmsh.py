@@ -102,6 +102,15 @@ class Gmsh(Body, Placed):
                 continue
             yield ("physical_to_material", name), text
 
+    def demand(self, cell: np.ndarray) -> tuple[float, float]:
+        """Return how many particles fill the elements with per_cell, twice."""
+        if self.particle_distribution != "per_cell":
+            return 0.0, 0.0
+        pieces = [piece for volume in self._volumes.values() for piece in volume.pieces]
+        spacing = cell / self.particles_per_direction
+        number = sum(float(piece.volume.sum()) for piece in pieces) / float(spacing.prod())
+        return number, number
+
     def clouds(self, cell: np.ndarray) -> tuple[Cloud, ...]:
         """Return the particles of each group; raises ValueError if the file is wrong."""
         pieces = [piece for volume in self._volumes.values() for piece in volume.pieces]

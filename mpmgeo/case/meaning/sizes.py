@@ -22,20 +22,10 @@ def check_sizes(parts, mesh, report):
     memory cannot hold together; `parts` of active bodies."""
     cell, total = np.array(mesh.cells_dimension), 0.0
     for part in parts:
-        if not hasattr(part.made, "lattice"):
+        if hasattr(part.made, "lattice") and _misses(part.made.lattice(cell), mesh, part, report):
             continue
-        lattice = part.made.lattice(cell)
-        inside = _inside(lattice, mesh)
-        if lattice.number > MANY and lattice.number > 10 * inside:
-            high = lattice.start + lattice.cell * lattice.cells
-            report.error(
-                part.path,
-                f"needs {lattice.number:.3g} particle positions, of which {inside:.3g} can lie in "
-                f"the mesh; the body reaches from {shown(lattice.start)} to {shown(high)}, the "
-                f"mesh from {shown(mesh.origin)} to {shown(mesh.upper)}",
-            )
-        else:
-            total += lattice.number * (PER_POSITION + part.made.fullness * PER_PARTICLE)
+        positions, particles = part.made.demand(cell)
+        total += positions * PER_POSITION + particles * PER_PARTICLE
     memory = memory_of_machine()
     if memory is not None and total > memory:
         report.error(
@@ -43,6 +33,21 @@ def check_sizes(parts, mesh, report):
             f"the particles need about {total / 1e9:.3g} GB of memory, more than the "
             f"{memory / 1e9:.3g} GB there are",
         )
+
+
+def _misses(lattice, mesh, part, report):
+    """Tell whether a body has a great many positions, most of them outside the mesh; report it."""
+    inside = _inside(lattice, mesh)
+    is_lost = lattice.number > MANY and lattice.number > 10 * inside
+    if is_lost:
+        high = lattice.start + lattice.cell * lattice.cells
+        report.error(
+            part.path,
+            f"needs {lattice.number:.3g} particle positions, of which {inside:.3g} can lie in "
+            f"the mesh; the body reaches from {shown(lattice.start)} to {shown(high)}, the "
+            f"mesh from {shown(mesh.origin)} to {shown(mesh.upper)}",
+        )
+    return is_lost
 
 
 def _inside(lattice, mesh):

@@ -2,6 +2,7 @@
 
 from time import perf_counter
 
+import meshes
 import numpy as np
 import pytest
 
@@ -47,6 +48,17 @@ def test_memory_of_all_bodies_together(case, monkeypatch):
     ]
     monkeypatch.setattr(sizes, "memory_of_machine", lambda: None)
     load_case(case)
+
+
+def test_memory_of_elements_that_are_filled(case, tmp_path, monkeypatch):
+    part = ("hexahedron", *meshes.box("hexahedron"))
+    path = meshes.write(tmp_path / "m.msh", meshes.mesh_of({"soil": [part]}))
+    body = {"type": "gmsh", "mesh_file": str(path), "physical_to_material": {"soil": 1}}
+    case["body"] = {"mesh": body}
+    monkeypatch.setattr(sizes, "memory_of_machine", lambda: 1e6)
+    load_case(case)
+    body |= {"particle_distribution": "per_cell", "particles_per_direction": [10, 10, 10]}
+    assert problems(case)[0].startswith("body: the particles need about 0.00408 GB of memory")
 
 
 def test_memory_of_this_machine():
