@@ -28,7 +28,7 @@ def check(draft, report):
     _check_base(draft, report)
     check_phases(draft, report)
     note_idle(draft, report)
-    warn_of_slips(draft, report)
+    warn_of_slips(draft, sound, report)
 
 
 def _actions(draft):

@@ -11,12 +11,16 @@ from mpmgeo.case.kinds import declared
 
 
 class Slip(NamedTuple):
-    """A key of a part of a case, values between which (exclusive) it is doubtful, and why."""
+    """A key of a part of a case, values between which (exclusive) it is doubtful, and why.
+
+    `stiffness`: only in a material of at least that [Pa]; a softer one has no units in mind.
+    """
 
     key: str
     above: float
     below: float
     why: str
+    stiffness: float = 0.0
 
 
 MUCH = float("inf")
@@ -31,7 +35,7 @@ SLIPS = {
         Slip("friction", 0, 1.6, ANGLE),
         Slip("softening.friction.residual", 0, 1.6, ANGLE),
         Slip("dilation", 0, 0.6, ANGLE),
-        Slip("density", 0, 50, LIGHT),
+        Slip("density", 0, 50, LIGHT, stiffness=1e5),
         Slip("density", 13_600, MUCH, HEAVY),
         Slip("density_fluid", 0, 50, LIGHT),
         Slip("density_fluid", 5_000, MUCH, HEAVY),
@@ -50,14 +54,19 @@ SLIPS = {
 """Key of a part, or of a list of parts → what may be doubtful in it."""
 
 
-def warn_of_slips(draft, report):
-    """Warn of values in the parts of a draft that are hardly meant."""
+def warn_of_slips(draft, sound, report):
+    """Warn of values in the parts of a draft that are hardly meant, and have an effect.
+
+    `sound`: bodies that know their materials.
+    """
+    used = {number for part in sound for number in part.made.materials}
     for place, slips in SLIPS.items():
         for part in draft.of(place):
-            if part.made is None:
+            if part.made is None or (place == "materials" and part.made.id not in used):
                 continue
             fields = {item.key: item.field.name for item in declared(type(part.made))}
-            for slip in slips:
+            stiffness = getattr(part.made, "young", getattr(part.made, "bulk", 0.0))
+            for slip in [slip for slip in slips if stiffness >= slip.stiffness]:
                 value = getattr(part.made, fields.get(slip.key, ""), None)
                 for number in value if isinstance(value, tuple) else (value,):
                     if number is not None and slip.above < number < slip.below:

@@ -56,11 +56,17 @@ def test_doubtful_values_of_a_material(wet, key, value, message):
 
 
 def test_a_doubtful_liquid(case):
-    case["materials"]["soil"] = WATER | {"density": 1.0, "bulk": 2.2}
-    assert load_case(case).warnings == (
-        f"materials.soil.density: 1 {LIGHT}",
-        f"materials.soil.bulk: 2.2 {SOFT}",
-    )
+    case["materials"]["soil"] = WATER | {"density": 1.0}
+    assert load_case(case).warnings == (f"materials.soil.density: 1 {LIGHT}",)
+    case["materials"]["soil"] = WATER | {"bulk": 2.2}
+    assert load_case(case).warnings == (f"materials.soil.bulk: 2.2 {SOFT}",)
+
+
+def test_a_case_without_units_and_a_material_without_use(case):
+    """A bar of stiffness 100 and density 1, as papers have it."""
+    case["materials"]["soil"] |= {"density": 1.0, "young": 100.0}
+    case["materials"]["other"] = case["materials"]["soil"] | {"id": 2, "density": 2.0, "young": 1.0}
+    assert load_case(case).warnings == ()
 
 
 @pytest.mark.parametrize(
