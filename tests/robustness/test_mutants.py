@@ -16,7 +16,9 @@ from mpmgeo.run.watch import Diverged
 
 LONGEST = 20.0  # s for one mutant
 LARGEST = 2 * 2**30  # bytes
-NUMBER = 20_000
+LARGE = ("bodies_in_flight", "column_collapse", "dam_break")
+"""Cases that take longer than the others."""
+
 STEP_EVERY = 20  # mutants of which one makes three steps
 
 
@@ -49,7 +51,9 @@ def try_one(source, known, steps):
 def run(name, folder, seeds):
     mutants = Mutants(name, folder)
     os.chdir(mutants.folder)
-    known = kind(mpmgeo.Simulation(load_case(mutants.case)).solver)
+    sound = mpmgeo.Simulation(load_case(mutants.case))
+    known = kind(sound.solver)
+    sound.step(3)  # compiles the kernels, which takes longer than a mutant may
     ran = 0
     for seed in seeds:
         start = perf_counter()
@@ -77,8 +81,12 @@ def test_a_few_mutants(name, tmp_path):
     assert run(name, tmp_path, range(1, 20)) > 0
 
 
+def test_there_are_many():
+    assert len(CASES) * 2000 - len(LARGE) * 1200 >= 20_000
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_many_mutants(name, tmp_path):
-    number = -(-NUMBER // len(CASES))
+    number = 800 if name in LARGE else 2000
     assert run(name, tmp_path, range(1000, 1000 + number)) > number / 10
