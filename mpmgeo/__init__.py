@@ -5,18 +5,23 @@ simulation = mpmgeo.Simulation(case).run()
 displacement = simulation.field("displacement")
 """
 
-__all__ = ["CaseError", "Simulation", "load_case"]
+from importlib import import_module
+
+_HOMES = {
+    "CaseError": "mpmgeo.case.report",
+    "CaseWarning": "mpmgeo.case.report",
+    "Simulation": "mpmgeo.simulation",
+    "StopRun": "mpmgeo.run.watch",
+    "Watcher": "mpmgeo.run.watch",
+    "load_case": "mpmgeo.case.load",
+}
+__all__ = list(_HOMES)
 
 
 def __getattr__(name):
     """Import the public names when they are used: most of the start-up time is theirs."""
-    if name == "Simulation":
-        from mpmgeo.simulation import Simulation as found
-    elif name in ("CaseError", "load_case"):
-        from mpmgeo.case import load
-
-        found = getattr(load, name)
-    else:
+    if name not in _HOMES:
         raise AttributeError(f"module 'mpmgeo' has no attribute {name!r}")
+    found = getattr(import_module(_HOMES[name]), name)
     globals()[name] = found
     return found

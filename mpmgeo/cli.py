@@ -5,9 +5,14 @@ import json
 import os
 import signal
 import sys
+import warnings
 from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
+
+from mpmgeo.numerics.environment import Unusable, examine
+from mpmgeo.run.interrupt import HANGUP, ending
+from mpmgeo.run.terminal import Streams, without_controls
 
 DONE, BAD_INPUT, DIVERGED, INTERRUPTED = 0, 2, 3, 130
 
@@ -40,8 +45,9 @@ def main(argv=None) -> int:
         arguments = parse(argv)
     except SystemExit as stop:
         return stop.code or DONE
-    with _termination_as_interrupt():
+    with _termination_as_interrupt(), warnings.catch_warnings():
         try:
+            examine()
             return serve(arguments)
         except KeyboardInterrupt:
             _say("error", "interrupted")
@@ -54,6 +60,9 @@ def main(argv=None) -> int:
             name = f"{error.filename}: " if error.filename else ""
             _say("error", f"{name}{error.strerror or error}")
             return BAD_INPUT
+        except Unusable as error:
+            _say("error", str(error))
+            return BAD_INPUT
         except MemoryError:
             _say("error", "the case needs more memory than there is")
             return BAD_INPUT
@@ -62,6 +71,7 @@ def main(argv=None) -> int:
 def run(case, arguments) -> int:
     """Simulate a case, write its files and return the exit code."""
     from mpmgeo.numerics.jit import prepare
+    from mpmgeo.output.claim import claimed
     from mpmgeo.run.progress import Compilation, Progress
     from mpmgeo.run.watch import Diverged
 
@@ -70,10 +80,12 @@ def run(case, arguments) -> int:
     output = Path(arguments.output)
     with Compilation(lambda: None if quiet else _say("note", COMPILING)) as compilation:
         simulation = _build(case, arguments, output)
-        _save_resolved(simulation.case, output)
         shown = len(simulation.messages)
+        watchers = [] if quiet else [Progress(compilation)]
         try:
-            simulation.run(watchers=[] if quiet else [Progress(compilation)])
+            with _output_named(), claimed(output, str(arguments.case or arguments.resume)):
+                _save_resolved(simulation.case, output)
+                simulation.run(watchers=watchers)
         except Diverged as error:
             _say("error", str(error))
             return DIVERGED
@@ -90,6 +102,20 @@ def run(case, arguments) -> int:
     return DONE
 
 
+@contextmanager
+def _output_named():
+    """Let the errors of files say that these are the output."""
+    from mpmgeo.output.claim import Refused
+
+    try:
+        yield
+    except (BrokenPipeError, Refused):
+        raise
+    except OSError as error:
+        reason = f"{error.strerror or error} (this is the output of the run)"
+        raise OSError(error.errno, reason, error.filename) from error
+
+
 def check(case, arguments) -> int:
     """Print a case with its defaults filled in, after everything that precedes a run."""
     simulation = _build(case, arguments, output=None)
@@ -99,8 +125,9 @@ def check(case, arguments) -> int:
 
 
 def _serve(arguments):
-    from mpmgeo.case.load import CaseError, load_case
+    from mpmgeo.case.load import CaseError, CaseWarning, load_case
 
+    warnings.simplefilter("ignore", CaseWarning)  # they are printed in the form of this program
     try:
         case = None
         if arguments.case is not None:
@@ -123,7 +150,6 @@ def _build(case, arguments, output):
 
     `case`: None for that of the snapshot to resume.
     """
-    from mpmgeo.case.building.lint import lint
     from mpmgeo.case.report import CaseError
     from mpmgeo.simulation import Simulation
 
@@ -132,17 +158,17 @@ def _build(case, arguments, output):
         if arguments.resume is None:
             simulation = Simulation(case, **options)
         else:
+            options["allow"] = arguments.allow
             simulation = Simulation.resume(arguments.resume, case, **options)
     except CaseError:
         raise
     except ValueError as error:
         raise CaseError([str(error)]) from error
     case = simulation.case
-    warnings = [] if simulation.goes_on else lint(simulation)
-    if warnings and arguments.strict:
-        raise CaseError(warnings)
-    _say_all("warning", warnings)
-    said = {*case.notes, *case.warnings, *warnings}
+    if simulation.warnings and arguments.strict:
+        raise CaseError(simulation.warnings)
+    _say_all("warning", simulation.warnings)
+    said = {*case.notes, *case.warnings, *simulation.warnings}
     if not arguments.quiet:
         _say_all("note", [text for text in simulation.messages if text not in said])
     return simulation
@@ -170,27 +196,38 @@ def _say_all(kind, texts):
 
 
 def _say(kind, text):
-    print(f"{kind}: {text}", file=sys.stderr, flush=True)
+    print(f"{kind}: {without_controls(text)}", file=sys.stderr, flush=True)
 
 
 @contextmanager
 def _termination_as_interrupt():
-    """Let SIGTERM do whatever Ctrl-C does at that moment."""
+    """Let SIGTERM and SIGHUP do what Ctrl-C does, also in a process that ignores Ctrl-C."""
+    streams = Streams()
+
+    def end(number, _):
+        if number == HANGUP:
+            streams.hang_up()
+            signal.signal(HANGUP, signal.SIG_IGN)
+        raise KeyboardInterrupt
+
     try:
-        before = signal.signal(signal.SIGTERM, lambda *_: signal.raise_signal(signal.SIGINT))
+        before = {number: signal.signal(number, end) for number in ending()}
     except ValueError:  # outside the main thread, where signals are not ours to handle
         yield
         return
     try:
         yield
     finally:
-        signal.signal(signal.SIGTERM, before)
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 def _parse(argv):
     parser = argparse.ArgumentParser(
         prog="mpmgeo",
-        description="Simulate a JSON case with the explicit material point method.",
+        usage="mpmgeo [options] CASE\n       mpmgeo benchmark [--help] [options]",
+        description="Simulate a JSON case with the explicit material point method, "
+        "or measure its kernels: benchmark.",
         epilog="Exit codes: 0 done, 2 bad input, 3 the run diverged, 130 interrupted.",
     )
     parser.add_argument("words", metavar="CASE", nargs="*", help="the case file")
@@ -198,6 +235,13 @@ def _parse(argv):
     parser.add_argument("--output", metavar="DIR", help="folder of the results [working directory]")
     parser.add_argument(
         "--resume", metavar="FILE", help="go on from a snapshot; the case file is not needed"
+    )
+    parser.add_argument(
+        "--allow",
+        metavar="KEY",
+        action="append",
+        default=[],
+        help="with --resume: a key that CASE may have another value of, like gravity; repeatable",
     )
     parser.add_argument(
         "--threads", metavar="N", type=_thread_count, help="number of threads, before n_threads"
@@ -210,6 +254,8 @@ def _parse(argv):
     parser.add_argument("--version", action=_Version, nargs=0, help="print the version")
     arguments = parser.parse_args(argv)
     arguments.case = _case_of(parser, arguments)
+    if arguments.allow and not (arguments.resume and arguments.case):
+        parser.error("--allow goes with --resume and the case file that has the changes")
     arguments.output = arguments.output or _folder_of_run(arguments.resume)
     return arguments
 

@@ -6,6 +6,12 @@ stages have left, or what they are about to use; the stages and schemes know no 
 
 from collections.abc import Iterator
 
+HOOKS = (
+    *("after_sort", "begin", "before_nodes", "after_nodes", "after_remap", "before_gather"),
+    *("after_gather", "end", "stopped", "keeping", "news"),
+)
+"""Methods that a solver calls in or between steps."""
+
 
 class Effect:
     """Does nothing; an effect overrides what it needs. `name` begins the names of its state."""
@@ -51,9 +57,16 @@ class Effect:
         """Yield (topic, messages) for what the user should be told of, `messages` a function."""
         yield from ()
 
+    def overrides(self, hook: str) -> bool:
+        """Tell whether it does anything at a hook."""
+        return getattr(type(self), hook) is not getattr(Effect, hook)
+
     def held(self) -> dict:
         """Return what a run that goes on needs of it, arrays and JSON values by name."""
         return {}
 
     def take(self, state: dict):
-        """Go on with what `held` once returned, taking it out; KeyError for what is missing."""
+        """Go on with what `held` once returned, taking it out of `state`, which may be a file's.
+
+        Raises KeyError for what is missing, ValueError for what cannot be (`state/checked.py`).
+        """

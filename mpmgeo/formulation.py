@@ -18,8 +18,11 @@ class Terrain(Protocol):
     def triangles(self) -> tuple[np.ndarray, np.ndarray]:
         """Return centres (n, 3) [m] and normals (n, 3) of its triangles."""
 
-    def density(self, solver: "Formulation") -> np.ndarray:
-        """Return the share (blocks, 64) of the nodes' volume that particles fill."""
+    def level(self, s: Any, at: Any) -> np.ndarray:
+        """Return the distances (n,) [m] of the particles `at` of a set that files show."""
+
+    def density(self, solver: "Formulation") -> tuple[np.ndarray, np.ndarray]:
+        """Return node indices (n, 3), and the share (n,) of their volume that particles fill."""
 
     def density_at(self, solver: "Formulation", x: np.ndarray) -> np.ndarray:
         """Return that share (n,) at points (n, 3) [m]."""
@@ -64,7 +67,8 @@ class Formulation(Protocol):
     def owners(self) -> dict[str, Any]:
         """Return all that hold a part of the state, by the name that their part has.
 
-        Each has `held()`, which returns its part by name, and `take(held)`, which goes on with it.
+        Each has `held()`, which returns its part by name, and `take(held)`, which goes on with it;
+        KeyError for what is missing, ValueError for what cannot be.
         """
 
     def keep(self, kept: dict | None = None) -> dict:

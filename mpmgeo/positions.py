@@ -17,6 +17,12 @@ DECIMALS = 3
 NOWHERE = (0.0, 0.0, 0.0)
 
 
+def mean_edge(cell) -> float:
+    """Return the mean edge length [m] of a cell (3,): of a cube exactly its own."""
+    x, y, z = map(float, cell)
+    return x if x == y == z else (x + y + z) / 3
+
+
 def resolution(zero, *positions) -> np.ndarray:
     """Return how exactly (3,) [m] doubles hold some positions, (3,) or (n, 3) [m] each."""
     highest = [np.abs(np.add(p, zero)).reshape(-1, 3).max(axis=0, initial=0.0) for p in positions]

@@ -3,46 +3,50 @@
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
-from typing import NamedTuple
 
 import numba
 import numpy as np
 
+from mpmgeo.case.building.lint import lint
 from mpmgeo.case.building.solver import build
 from mpmgeo.case.building.time_step import critical_time_step
 from mpmgeo.case.coordinates import in_mesh
+from mpmgeo.case.load import load_case
+from mpmgeo.case.report import nearest, show
+from mpmgeo.case.spec import Case
 from mpmgeo.mpm.incidents import Unsound
-from mpmgeo.naming import GHOSTS, PLANES
+from mpmgeo.naming import PLANES
+from mpmgeo.numerics.chunks import most_threads
 from mpmgeo.numerics.jit import remarks
+from mpmgeo.output.claim import claimed
 from mpmgeo.output.final_stress import FinalStress
 from mpmgeo.output.histories import Histories, histories_of
-from mpmgeo.output.leftovers import SNAPSHOTS, STRESS_FILE, TERRAIN, Leftovers
-from mpmgeo.output.particle_fields import particle_field
-from mpmgeo.run.diagnosis import diagnose
+from mpmgeo.output.leftovers import Leftovers
+from mpmgeo.output.nodes import nodes_of
+from mpmgeo.output.particle_fields import particle_field, particle_field_names
+from mpmgeo.run.diagnosis import diagnose, last_stress
 from mpmgeo.run.loop import run
 from mpmgeo.run.losses import Losses
 from mpmgeo.run.snapshots import Snapshots
 from mpmgeo.run.watch import Diverged, Guard
 
 
-class Nodes(NamedTuple):
-    """Nodes with mass: index with two ghost layers, position [m], mass [kg], velocity [m/s]."""
-
-    index: np.ndarray
-    position: np.ndarray
-    mass: np.ndarray
-    velocity: np.ndarray
-
-
 class Simulation:
     """A case with its state.
 
-    `output`: folder for the files of the run, None for none; `threads`: number of threads, by
-    default what the case says, or all. Raises ValueError for a file or geometry that cannot be
-    used.
+    `case`: what `load_case` returns, or takes; `output`: folder for the files of the run, None for
+    none; `threads`: number of threads, by default what the case says, or all. What is hardly meant
+    is in `warnings`, which are shown as CaseWarning. Raises ValueError for a file or geometry that
+    cannot be used, and what `load_case` raises.
     """
 
     def __init__(self, case, output=None, threads=None):
+        self._build(case if isinstance(case, Case) else load_case(case), output, threads)
+        self.warnings = lint(self)
+        self.messages += self.warnings
+        show(self.warnings)
+
+    def _build(self, case, output, threads):
         self.case = case
         self.output = None if output is None else Path(output)
         self.messages = [*case.notes, *case.warnings]
@@ -52,31 +56,54 @@ class Simulation:
         self.threads = self._set_threads(threads or case.n_threads)
         self.critical_time_step = critical_time_step(case, self.field("velocity"))
         self.interrupted = False
+        self.stopped = None  # why a watcher stopped the last run, None if none did
         self.goes_on = False  # whether files of its earlier part may be in the output folder
         self.snapshot = None  # path of the last one written
+        self.warnings = []
+        self.changes = []  # of the case on the way, each with time, steps and values by key
         self._kept = None
         self._told = set()
         self._histories = histories_of(self, self.output or Path())
 
     @classmethod
-    def resume(cls, path, case=None, output=None, threads=None):
+    def resume(cls, path, case=None, output=None, threads=None, allow=()):
         """Return a simulation in the state of the snapshot at `path`, from which it goes on.
 
-        `case`: the snapshot's case, needed only if the files that it names have moved. Raises
-        ValueError if the snapshot cannot be used or is not of the case.
+        `case`: the snapshot's case, needed only if the files that it names have moved, or if it has
+        other values of the keys in `allow`, like "gravity" or "materials[0].young"; `changes` tells
+        of them, here and in later snapshots. Raises ValueError if the snapshot cannot be used or is
+        not of the case.
         """
-        from mpmgeo.case.resume import case_of
+        from mpmgeo.case.resume import branch_of
         from mpmgeo.mpm.persistence import take_snapshot
-        from mpmgeo.state.snapshot import read_snapshot
+        from mpmgeo.state.snapshot import StoredSnapshot
 
-        snapshot = read_snapshot(path)
-        case = case_of(path, snapshot.facts, case)
-        simulation = cls(replace(case, load_state=False), output, threads)
+        snapshot = StoredSnapshot(path)
+        told = snapshot.facts.get("told")
+        if not (isinstance(told, list) and all(isinstance(topic, str) for topic in told)):
+            raise ValueError(f"{path}: is no snapshot of a run")
+        if case is not None and not isinstance(case, Case):
+            case = load_case(case)
+        case, changed = branch_of(path, snapshot.facts, case, allow)
+        simulation = cls.__new__(cls)
+        simulation._build(replace(case, load_state=False), output, threads)
         simulation.case = case
         take_snapshot(simulation.solver, snapshot)
-        simulation._told = set(snapshot.facts["told"])
+        simulation._told = set(told)
         simulation.goes_on = True
+        simulation.changes = [*snapshot.facts.get("changes", ()), *simulation._change(changed)]
+        if simulation.time >= case.time:
+            simulation.say(
+                f"the run is at its end already, {case.time:.6g} s; it goes on if a case says a "
+                "later time"
+            )
         return simulation
+
+    def _change(self, values):
+        """Return what there is to record of values that changed now, a list."""
+        for key, (old, new) in values.items():
+            self.say(f"{key}: {new} from {self.time:.6g} s on, {old} before")
+        return [{"time": self.time, "steps": self.steps, "values": values}] if values else []
 
     def save(self, path):
         """Write a snapshot of the complete state."""
@@ -85,7 +112,7 @@ class Simulation:
         from mpmgeo.state.snapshot import Snapshot, write_snapshot
 
         arrays, facts = snapshot_of(self.solver)
-        facts |= {"told": sorted(self._told), **self._case_facts}
+        facts |= {"told": sorted(self._told), "changes": self.changes, **self._case_facts}
         with whole_file(path) as file:
             write_snapshot(file, Snapshot(arrays, facts))
         self.snapshot = path
@@ -97,7 +124,7 @@ class Simulation:
         return case_facts(self.case)
 
     def _set_threads(self, wanted):
-        most = numba.config.NUMBA_NUM_THREADS
+        most = most_threads()
         if wanted and wanted > most:
             self.say(f"n_threads: {wanted} asked for, {most} available")
         return min(wanted or most, most)
@@ -112,12 +139,15 @@ class Simulation:
         """Run to the end of the case, or to time `until` [s]; returns the simulation.
 
         Raises Diverged when particles become NaN, infinite or too fast; the state is then the last
-        sound one. The first Ctrl-C ends the run after a whole step and sets `interrupted`.
+        sound one. The first Ctrl-C ends the run after a whole step and sets `interrupted`; StopRun,
+        raised by a watcher, ends it too and sets `stopped` to its reason. Raises OSError if files
+        cannot be written, or if another run writes into the output folder.
         """
         every = self.output_interval
         watchers = [Guard(every), *self._files(every), Losses(), *watchers]
         try:
-            run(self, self.case.time if until is None else until, watchers)
+            with claimed(self.output, self.case.title):
+                run(self, self.case.time if until is None else until, watchers)
         finally:
             self.goes_on = True
         return self
@@ -134,17 +164,7 @@ class Simulation:
             files.append(FinalStress(self.output))
         if self.case.snapshot is not None:
             files.append(Snapshots(self.output, self.case.snapshot, self._histories))
-        return [Leftovers(self.output, self._written()), *files]
-
-    def _written(self):
-        """Return files and folders, among those that only some cases have, that this one has."""
-        written = [history.path for history in self._histories]
-        asked = (
-            (self.case.save_state, STRESS_FILE),
-            (self.case.snapshot is not None, SNAPSHOTS),
-            (self.solver.ground is not None, TERRAIN),
-        )
-        return written + [self.output / name for is_asked, name in asked if is_asked]
+        return [Leftovers(self.output, self._histories), *files]
 
     def step(self, steps=1):
         """Advance by some steps; returns the simulation."""
@@ -164,6 +184,9 @@ class Simulation:
             if self._once(topic):
                 for message in messages():
                     self.say(message)
+        for message in remarks():
+            if message not in self.messages:
+                self.say(message)
 
     def _once(self, topic):
         new = topic not in self._told
@@ -183,14 +206,7 @@ class Simulation:
             action()
         except Unsound as error:
             error.position = error.position + self.solver.population.zero
-            raise Diverged(diagnose(self, error, self._last_stress(error.row))) from error
-
-    def _last_stress(self, row):
-        """Return the stress (6,) [Pa] in the state kept last of the particle in a row, or None."""
-        for number in range(len(self.solver.sets)) if self._kept else ():
-            if (found := self._kept[f"set{number}.row"] == row).any():
-                return self._kept[f"set{number}.stress"][found][0]
-        return None
+            raise Diverged(diagnose(self, error, last_stress(self._kept, error.row))) from error
 
     def keep(self):
         """Keep a copy of the state."""
@@ -240,8 +256,13 @@ class Simulation:
         return self.kinetic_energy() if peak is None else peak
 
     def field(self, key):
-        """Return a field of all particles in row order: a key of the results, or position, mass,
-        volume; stress has the columns xx yy zz xy yz xz. Raises KeyError for an unknown key."""
+        """Return a field of all particles in row order: a key of the results, position, mass, or a
+        variable of a law; stress has the columns xx yy zz xy yz xz. KeyError for an unknown key."""
+        known = particle_field_names(self.solver)
+        if key not in known:
+            guess = nearest(key, known)
+            end = f"did you mean {guess!r}?" if guess else f"there are {', '.join(known)}"
+            raise KeyError(f"{key!r} is no field; {end}")
         return particle_field(self.solver, key)
 
     def assign(self, key, values):
@@ -253,6 +274,8 @@ class Simulation:
         known = {"velocity": ("v", (3,)), "stress": ("stress", (6,))}
         if self.case.n_phases == 2:
             known |= {"velocity_fluid": ("vf", (3,)), "pressure": ("pf", ())}
+        if key not in known:
+            raise KeyError(f"{key!r} cannot be assigned; what can: {', '.join(known)}")
         name, shape = known[key]
         values, shape = np.asarray(values, float), (self.solver.count, *shape)
         if values.shape != shape:
@@ -273,9 +296,4 @@ class Simulation:
 
     def nodes(self):
         """Return the nodes that carried mass in the last step."""
-        grid = self.solver.grid
-        mass, velocity = grid.solid.at_nodes("mass"), grid.solid.at_nodes("velocity")
-        index, used = grid.indices().reshape(-1, 3), mass > self.solver.cutoff
-        mesh = self.case.mesh
-        position = index[used] * np.array(mesh.cells_dimension) + mesh.origin
-        return Nodes(index[used] + GHOSTS, position, mass[used], velocity[used])
+        return nodes_of(self.solver, self.case.mesh)

@@ -66,6 +66,7 @@ def parse(argv):
 def serve(arguments) -> int:
     """Run the benchmark and return the exit code; OSError for files that cannot be used."""
     from mpmgeo.benchmark.configuration import read_configurations
+    from mpmgeo.numerics.jit import remarks
     from mpmgeo.run.progress import Compilation
 
     try:
@@ -81,6 +82,8 @@ def serve(arguments) -> int:
             found = [*_run(configuration, arguments.repeats)]
             _print_table(found)
             timings += found
+    for remark in remarks():
+        _say("note", remark)
     if arguments.csv:
         _write(arguments.csv, timings)
     wrong = [t for t in timings if not t.error < WRONG]

@@ -11,7 +11,7 @@ from mpmgeo.bodies.cloud import Cloud
 from mpmgeo.bodies.lattice import ROUND_OFF, Lattice
 from mpmgeo.bodies.outline import crossing
 from mpmgeo.parameters import Vector, parameter
-from mpmgeo.positions import resolution
+from mpmgeo.positions import mean_edge, resolution
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ class Polygon2D(Filled):
 
     def lattice(self, cell: np.ndarray) -> Lattice:
         """Return the candidate positions; raises ValueError if there are too many."""
-        edge = self.discretization_length or float(np.mean(cell))
+        edge = self.discretization_length or mean_edge(cell)
         axes = list(zip(*self.points, strict=True))
         extent = [max(axis) - min(axis) for axis in axes]
         extent[self._along] = self.extrude_displacement

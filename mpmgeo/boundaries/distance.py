@@ -9,7 +9,14 @@ import numpy as np
 
 from mpmgeo.numerics.chunks import CHUNKS, blockwise
 from mpmgeo.numerics.jit import inlined
-from mpmgeo.numerics.triangle_tree import DEPTH, FACE, build, closest, nearest
+from mpmgeo.numerics.triangle_tree import (
+    DEPTH,
+    FACE,
+    build,
+    closest,
+    first_of_nearest,
+    nearest,
+)
 from mpmgeo.state.layout import NODES, SIDE, axes
 
 FAR = 1e30  # m
@@ -47,6 +54,13 @@ class Ground(NamedTuple):
 
 
 @inlined
+def nearest_of(ground, x, y, z, guess, waiting):
+    """Return the nearest triangle; for the signs of MPM-Geomechanics the first in the file."""
+    t = nearest(ground, x, y, z, guess, waiting)
+    return first_of_nearest(ground, x, y, z, t, waiting) if len(ground.rim) == 0 else t
+
+
+@inlined
 def signed_distance(ground, t, x, y, z):
     """Return the distance [m] to triangle t, the nearest one: negative below the ground.
 
@@ -78,7 +92,7 @@ def distances(c, ground, x, out):
     waiting = np.empty(DEPTH, np.int64)
     t = 0
     for p in range(c * len(x) // CHUNKS, (c + 1) * len(x) // CHUNKS):
-        t = nearest(ground, x[p, 0], x[p, 1], x[p, 2], t, waiting)
+        t = nearest_of(ground, x[p, 0], x[p, 1], x[p, 2], t, waiting)
         out[p] = signed_distance(ground, t, x[p, 0], x[p, 1], x[p, 2])
 
 
@@ -96,7 +110,7 @@ def fill(c, ground, mesh, band, corner, out):
         oy = corner[b, 1] * SIDE * mesh.hy
         oz = corner[b, 2] * SIDE * mesh.hz
         x, y, z = ox + 1.5 * mesh.hx, oy + 1.5 * mesh.hy, oz + 1.5 * mesh.hz
-        t = nearest(ground, x, y, z, t, waiting)
+        t = nearest_of(ground, x, y, z, t, waiting)
         d = signed_distance(ground, t, x, y, z)
         if abs(d) > band + radius:
             out[b] = FAR if d > 0.0 else -FAR
@@ -104,5 +118,5 @@ def fill(c, ground, mesh, band, corner, out):
         for n in range(NODES):
             i, j, k = axes(n)
             x, y, z = ox + i * mesh.hx, oy + j * mesh.hy, oz + k * mesh.hz
-            t = nearest(ground, x, y, z, t, waiting)
+            t = nearest_of(ground, x, y, z, t, waiting)
             out[b, n] = signed_distance(ground, t, x, y, z)

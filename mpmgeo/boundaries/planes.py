@@ -37,7 +37,10 @@ class BoundaryConditions:
 
 
 class Planes(NamedTuple):
-    """Kinds of the six planes for kernels, and whether upper sides win over a base at its edges."""
+    """Kinds of the six planes for kernels, and whether upper sides win over a base at its edges.
+
+    If they do, the lower sides hold what comes before the base: what base nodes keep of their own.
+    """
 
     x0: int
     y0: int
@@ -88,6 +91,8 @@ def constrain(planes, mesh, I, J, K, x, y, z, base, on_base):
     if planes.z0 == BASE and K <= 0:
         if on_base:
             x, y, z = base[0], base[1], base[2]
+        elif planes.upper_wins:
+            x, y, z = x * nx * ty, y * tx * ny, z * tx * ty
         if planes.upper_wins:
             return x * upper_x, y * upper_y, z * upper_z
         return x, y, z

@@ -1,6 +1,8 @@
 """What there is to say about a case file: errors, warnings and notes, each with its JSON path."""
 
 import re
+import sys
+import warnings
 from difflib import get_close_matches
 
 from mpmgeo.values import LONGEST, shown
@@ -14,6 +16,23 @@ class CaseError(ValueError):
         self.problems = list(problems)
         self.warnings = tuple(warnings)
         self.notes = tuple(notes)
+
+
+class CaseWarning(UserWarning):
+    """What is possible in a case, but hardly meant; `warnings.simplefilter` silences it."""
+
+
+def show(texts):
+    """Show texts as warnings about the line of the script that called this package."""
+    frame, level = sys._getframe(1), 2
+    while frame.f_back is not None and _is_ours(frame):
+        frame, level = frame.f_back, level + 1
+    for text in texts:
+        warnings.warn(text, CaseWarning, stacklevel=level)
+
+
+def _is_ours(frame):
+    return frame.f_globals.get("__name__", "").partition(".")[0] == __name__.partition(".")[0]
 
 
 class Report:

@@ -1,10 +1,21 @@
-"""What a snapshot says about its case, and whether a case is the one of a snapshot."""
+"""What a snapshot says about its case, and with which case a run may go on from it."""
 
 from mpmgeo.case.load import load_case, resolved
-from mpmgeo.case.meaning.fingerprint import differences, fingerprint
+from mpmgeo.case.meaning.fingerprint import FREE, differences, fingerprint, leaves
+from mpmgeo.case.report import nearest
 
 MOST_DIFFERENCES = 5
 """Differences that a message names."""
+
+SETTLED = (
+    *("mesh.cells_number", "mesh.cells_dimension", "mesh.origin", "body"),
+    *("n_phases", "compatibility", "load_distributed_box", "hydro_mechanical_coupling"),
+    *("initial_pressure_box", "initial_pressure_material"),
+    *("prescribed_pressure_box", "pressure_force_box"),
+)
+"""Keys whose effect is in the particles of a snapshot, so that they cannot change any more."""
+
+SETTLED_OF_MATERIALS = ("id", "type", "density", "density_fluid", "porosity")
 
 
 def case_facts(case) -> dict:
@@ -12,17 +23,50 @@ def case_facts(case) -> dict:
     return {"case": resolved(case), "fingerprint": fingerprint(case)}
 
 
-def case_of(path, facts, case=None):
-    """Return the case with which a run goes on: `case`, or the one in the facts of a snapshot.
+def branch_of(path, facts, case=None, allow=()):
+    """Return the case with which a run goes on, and what it changes: {key: (old, new)}.
 
-    Raises ValueError if `case` is not that of the snapshot at `path`, or its files have changed.
+    That is `case`, or the one in the facts of the snapshot at `path`. Raises ValueError if they
+    differ in more than the keys in `allow`, each one of the case or the beginning of one.
     """
-    if "case" not in facts or "fingerprint" not in facts:
+    if not all(isinstance(facts.get(key), dict) for key in ("case", "fingerprint")):
         raise ValueError(f"{path}: is no snapshot of a run")
     case = load_case(facts["case"]) if case is None else case
-    found = differences(facts["fingerprint"], fingerprint(case))
-    if found:
-        named = ", ".join(found[:MOST_DIFFERENCES])
-        more = f" and {len(found) - MOST_DIFFERENCES} more" if found[MOST_DIFFERENCES:] else ""
-        raise ValueError(f"{path}: is of another case, or its files have changed: {named}{more}")
-    return case
+    old, new = facts["fingerprint"], fingerprint(case)
+    try:
+        before, after = dict(leaves(old)), dict(leaves(new))
+    except RecursionError:  # no case is nested so deep
+        raise ValueError(f"{path}: is no snapshot of a run") from None
+    allow = _known([allow] if isinstance(allow, str) else allow, {**before, **after})
+    found = differences(old, new)
+    strange = [key for key in found if not _is_within(key, allow)]
+    if strange:
+        named = ", ".join(strange[:MOST_DIFFERENCES])
+        more = f" and {len(strange) - MOST_DIFFERENCES} more" if strange[MOST_DIFFERENCES:] else ""
+        raise ValueError(
+            f"{path}: is of another case, or its files have changed: {named}{more}; "
+            "keys that are to change are named by --allow, in Python by allow=[…]"
+        )
+    settled = [key for key in found if _is_settled(key)]
+    if settled:
+        raise ValueError(f"{path}: {settled[0]} cannot change: the snapshot's particles have it")
+    return case, {key: (before.get(key), after.get(key)) for key in found}
+
+
+def _known(allow, keys):
+    """Return keys that may change as they are; raises ValueError for one that there is not."""
+    for wanted in allow:
+        if wanted not in FREE and not any(_is_within(key, [wanted]) for key in keys):
+            guess = nearest(wanted, [*keys, *(key.partition("[")[0] for key in keys)])
+            hint = f"; did you mean {guess}?" if guess else ""
+            raise ValueError(f"allow: the case has no key {wanted}{hint}")
+    return allow
+
+
+def _is_within(key, parts):
+    return any(key == part or key.startswith((f"{part}.", f"{part}[")) for part in parts)
+
+
+def _is_settled(key):
+    material = key.startswith("materials") and key.rpartition(".")[2] in SETTLED_OF_MATERIALS
+    return material or _is_within(key, SETTLED)

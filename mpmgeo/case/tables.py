@@ -25,6 +25,9 @@ from mpmgeo.output.fields import (
 MARK = "<!-- From here on generated: python -m mpmgeo.case.tables -->\n"
 
 
+UNREAD = "; ignored with `compatibility`, as there"
+
+
 def update(root: Path) -> None:
     """Write the schema and the tables into the repository at `root`."""
     (root / "schemas" / "case.schema.json").write_text(schema_text(), encoding="utf-8")
@@ -96,7 +99,10 @@ def _fields(title, fields):
 
 def _spellings():
     rows = [
-        (f"`{_dotted((*alias.place, alias.old))}`", f"`{_dotted((*alias.place, alias.new))}`")
+        (
+            f"`{_dotted((*alias.place, alias.old))}`",
+            f"`{_dotted((*alias.place, alias.new))}`{UNREAD if alias.is_unread else ''}",
+        )
         for alias in ALIASES
     ]
     rows += [

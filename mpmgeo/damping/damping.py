@@ -1,7 +1,7 @@
 """What every kind of damping provides: JSON keys, and what it does at a node or with all particles.
 
 One that acts at the nodes has `symbols`, a NamedTuple for whose type `damp` is registered. One that
-acts on the particles as a whole has `effect`, see `mpm/effects/effect.py`.
+acts on the particles as a whole has `effect`, which returns an `Effect`.
 """
 
 from dataclasses import dataclass
@@ -24,6 +24,10 @@ class Damping:
     def effect(self):
         """Return what acts on the particles as a whole, None if nothing does."""
         return
+
+    def effect_as_mpm_geomechanics(self):
+        """Return the same as the program MPM-Geomechanics has it."""
+        return self.effect()
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ from typing import ClassVar
 
 from mpmgeo.damping.damping import Damping
 from mpmgeo.effect import Effect
+from mpmgeo.state.checked import number_from, truth_from
 
 
 @dataclass(frozen=True)
@@ -20,6 +21,10 @@ class KineticDamping(Damping):
     def effect(self):
         """Return what stops the particles."""
         return Stops()
+
+    def effect_as_mpm_geomechanics(self):
+        """Return what stops the particles after files have shown them."""
+        return StopsLater()
 
 
 class Stops(Effect):
@@ -45,4 +50,34 @@ class Stops(Effect):
 
     def take(self, state):
         """Go on with what `held` once returned."""
-        self.last = state.pop("last_energy")
+        self.last = number_from(state, "last_energy")
+
+
+class StopsLater(Stops):
+    """Stops all particles as MPM-Geomechanics does, when the next step begins."""
+
+    def __init__(self):
+        super().__init__()
+        self.due = False
+
+    def begin(self, solver, h):
+        """Stop the particles if the energy has passed a peak."""
+        if self.due:
+            solver.stop()
+            self.due = False
+
+    def end(self, solver):
+        """Compare the kinetic energy with that of the step before."""
+        energy = solver.peak_energy = solver.kinetic_energy()
+        self.due = energy < self.last
+        self.last = 0.0 if self.due else energy
+        solver.clock.lap(self.name)
+
+    def held(self):
+        """Return the energy to compare with, and whether the particles are to be stopped."""
+        return super().held() | {"due": bool(self.due)}
+
+    def take(self, state):
+        """Go on with what `held` once returned."""
+        super().take(state)
+        self.due = truth_from(state, "due")

@@ -2,7 +2,8 @@
 
 One plane at a time: the shear plane or the tension plane takes a trial stress back, chosen by a
 line between the two, and nothing sees to it that the returned principal stresses are in order.
-Edges, corners and equal principal stresses are left to chance. ψ does not soften.
+Edges, corners and equal principal stresses are left to chance; between equal ones a small shear
+decides here, in place of round-off. ψ does not soften.
 
     fs = σ₁ − N σ₃ + 2c√N < 0,    ft = T − σ₃ < 0    (yield)
     h = σ₃ − T + a (σ₁ − T N + 2c√N),    a = √(1 + N²) + N    (h > 0: tension)
@@ -39,7 +40,7 @@ class Symbols(NamedTuple):
 
 
 C_MIN = 1e-5  # [Pa] cohesion where the vertical stress is tensile
-NOISE = 1e-9  # relative shear that decides, in place of round-off, between equal stresses
+NOISE = 1e-9  # relative difference below which principal stresses count as equal
 
 
 @inlined
@@ -70,13 +71,21 @@ def one_plane(law, s1, s2, s3, N, M, c, T):
     return s1, s2, s3, 0.0
 
 
+@inlined
+def told_apart(a):
+    """Return what `principal` does, for equal principal stresses those of a sheared tensor."""
+    p = principal(a)
+    k = NOISE * (abs(a[0]) + abs(a[1]) + abs(a[2]))
+    if min(p[1] - p[0], p[2] - p[1]) < k:
+        p = principal((a[0], a[1], a[2], a[3] - k, a[4] - k, a[5] - k))
+    return p
+
+
 @update_stress.register(Symbols)
 def mohr_coulomb_legacy(law, stress, strain, state, dt):
     trial = hooke(law, stress, strain)
     N, M, c, T = strengths(law, trial[2], state[0])
-    xx, yy, zz, xy, yz, xz = trial
-    k = NOISE * (abs(xx) + abs(yy) + abs(zz))
-    p = principal((xx, yy, zz, xy - k, yz - k, xz - k))
+    p = told_apart(trial)
     y1, y2, y3, εp = one_plane(law, p[0], p[1], p[2], N, M, c, T)
     if εp == 0.0:
         return trial + state

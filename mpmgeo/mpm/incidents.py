@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mpmgeo.positions import NOWHERE, shown
+from mpmgeo.state.checked import array_from, demand
 
 
 class Departure(NamedTuple):
@@ -51,9 +52,12 @@ class Departures(list):
         """Go on with what `held` once returned."""
         self.clear()
         if state:
-            time, count, rows, position = (
-                state.pop(name) for name in ("time", "count", "rows", "position")
-            )
+            time = array_from(state, "time", np.float64, (None,))
+            count = array_from(state, "count", np.int64, time.shape)
+            rows = array_from(state, "rows", np.int64, (None,))
+            position = array_from(state, "position", np.float64, (len(time), 3))
+            is_sound = len(time) and (count > 0).all() and count.max() <= len(rows)
+            demand(is_sound and count.sum() == len(rows), "count does not fit rows")
             parts = np.split(rows, np.cumsum(count)[:-1])
             self.extend(map(Departure, time.tolist(), parts, position))
 

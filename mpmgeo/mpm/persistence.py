@@ -10,6 +10,9 @@ import numpy as np
 
 from mpmgeo.state.snapshot import Snapshot
 
+SPARE = 100
+"""Rows that an array without a row for each particle or block may have beyond their number."""
+
 
 def state_of(solver) -> dict:
     """Return the state by name; its arrays are those of the solver, not copies."""
@@ -49,7 +52,11 @@ def take_over(solver, state) -> None:
             raise ValueError(
                 f"the snapshot lacks {here}{error.args[0]}, which the case needs"
             ) from None
+        except ValueError as error:
+            raise ValueError(f"the snapshot does not fit the case: {here}{error}") from None
         parts |= {owner: found} if found else {}
+    for s in solver.sets:
+        s.lie_in(solver.grid)
     unknown = sorted(f"{owner}.{name}" for owner, part in parts.items() for name in part)
     if unknown:
         raise ValueError(
@@ -64,6 +71,14 @@ def snapshot_of(solver) -> Snapshot:
     return Snapshot(arrays, {"state": {n: v for n, v in state.items() if n not in arrays}})
 
 
-def take_snapshot(solver, snapshot) -> None:
-    """Give a solver the state in a file; raises ValueError if it does not fit."""
-    take_over(solver, snapshot.arrays | snapshot.facts.get("state", {}))
+def take_snapshot(solver, stored) -> None:
+    """Give a solver the state in a file; raises ValueError if it does not fit.
+
+    `stored`: a `StoredSnapshot`; nothing is read that is larger than the case can need. If it does
+    not fit, or proves to be broken, the solver is of no use any more.
+    """
+    entries, state = stored.entries(most=solver.count + SPARE), stored.facts.get("state")
+    if not isinstance(state, dict) or state.keys() & entries.keys():
+        raise ValueError(f"{stored.path}: is no snapshot of a run")
+    take_over(solver, entries | state)
+    stored.verify()

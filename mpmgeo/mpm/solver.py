@@ -8,12 +8,13 @@ import numpy as np
 
 from mpmgeo.boundaries.base_motion import STILL
 from mpmgeo.boundaries.planes import Planes
-from mpmgeo.effect import Effect
+from mpmgeo.effect import HOOKS, Effect
 from mpmgeo.mpm.incidents import Departures, Unsound
 from mpmgeo.mpm.persistence import copy_of, state_of, take_over
 from mpmgeo.mpm.stages import Stages
 from mpmgeo.mpm.task import OnePhase
 from mpmgeo.numerics.clock import Clock
+from mpmgeo.state.checked import demand, number_from, whole_from
 from mpmgeo.state.grid import Grid
 from mpmgeo.state.inspection import first_unsound, kinetic_energy
 from mpmgeo.state.particles import ParticleSet, Population
@@ -59,6 +60,12 @@ class Solver(Stages):
         self.motion = STILL  # of a plane that moves
         self.driven = None, ()  # model and arrays of nodes whose velocity is prescribed
         self.nodal = OnePhase()
+        for s in self.sets:
+            s.lie_in(self.grid)
+        self.asked = {
+            hook: [getattr(effect, hook) for effect in self.effects if effect.overrides(hook)]
+            for hook in HOOKS
+        }
         for effect in self.effects:
             effect.join(self)
 
@@ -75,8 +82,8 @@ class Solver(Stages):
         """Yield (topic, messages) for what the user should be told of, `messages` a function."""
         if self.departures:
             yield "departure", self.departures.first
-        for effect in self.effects:
-            yield from effect.news(self)
+        for news in self.asked["news"]:
+            yield from news(self)
 
     def arrange(self):
         """Sort the particles now if some are not where the order says; may raise Unsound."""
@@ -100,20 +107,20 @@ class Solver(Stages):
         if self.gone:
             self._sort()
             self.clock.lap("sort")
-        for effect in self.effects:
-            effect.begin(self, h)
+        for begin in self.asked["begin"]:
+            begin(self, h)
         self.scheme(self, h)
         self.steps += 1
         self.time += self.time_step
-        for effect in self.effects:
-            effect.end(self)
+        for end in self.asked["end"]:
+            end(self)
 
     def stop(self):
         """Set the velocities of all particles to zero."""
         for s in self.sets:
             s.stop()
-        for effect in self.effects:
-            effect.stopped(self)
+        for stopped in self.asked["stopped"]:
+            stopped(self)
 
     def kinetic_energy(self) -> float:
         """Return the kinetic energy of the active particles [J]."""
@@ -141,8 +148,8 @@ class Solver(Stages):
         """Sort the particles, note who leaves; `judge`: raise Unsound for those that failed."""
         left = sort(self.grid, self.sets, self.crew, self._walls())
         self.gone = 0
-        for effect in self.effects:
-            effect.after_sort(self)
+        for act in self.asked["after_sort"]:
+            act(self)
         new = [slice(s.active, s.active + n) for s, n in zip(self.sets, left, strict=True)]
         if judge:
             self._judge(new)
@@ -164,23 +171,36 @@ class Solver(Stages):
         if self.leaky or self.steps == 0:
             return OPEN
         walls = self.planes.walls
-        for effect in self.effects:
-            walls = effect.keeping(walls)
+        for keeping in self.asked["keeping"]:
+            walls = keeping(walls)
         return walls
 
     # What a run must hold to go on
 
     def owners(self):
-        """Return all that hold a part of the state, by the name that their part has."""
+        """Return all that hold a part of the state, by the name that their part has.
+
+        The solver comes last, for it looks whether the parts fit together.
+        """
         sets = {f"set{number}": s for number, s in enumerate(self.sets)}
         effects = {effect.name: effect for effect in self.effects}
-        return {"": self, "departures": self.departures, "grid": self.grid, **sets, **effects}
+        return {"departures": self.departures, "grid": self.grid, **sets, **effects, "": self}
 
     def held(self):
         """Return the solver's own part, by name."""
         return {name: getattr(self, name) for name in COUNTERS}
 
     def take(self, state):
-        """Go on with what `held` once returned."""
-        for name in COUNTERS:
-            setattr(self, name, state.pop(name))
+        """Go on with what `held` once returned; ValueError if the parts do not fit together."""
+        self.time = number_from(state, "time", least=0.0)
+        self.steps, self.gone = whole_from(state, "steps"), whole_from(state, "gone")
+        if (peak := state.pop("peak_energy")) is not None:
+            peak = number_from({"peak_energy": peak}, "peak_energy")
+        self.peak_energy = peak
+        blocks = len(self.grid.keys)
+        for s in self.sets:
+            unsorted = blocks == 0 and (self.gone > 0 or s.active == 0)
+            is_sound = unsorted or len(s.start) == blocks + 1
+            demand(is_sound, "grid.keys are not the blocks of the particles")
+        is_sound = all(d.rows.min() >= 0 and d.rows.max() < self.count for d in self.departures)
+        demand(is_sound, "departures are of particles that there are not")

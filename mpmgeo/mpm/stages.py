@@ -21,20 +21,17 @@ class Loops:
     def over_particles(self, work, s, arrays, tiles=None, nodes=None, fresh=False):
         """Visit the particles of set `s` with a work that fills `tiles` and reads `nodes`."""
         grid = self.grid
-        place = (s.chunk, s.begin, s.end, grid.corner)
-        read = None if nodes is None else (nodes, grid.above)
-        fill, scratch, crew = tiles or (grid.tiles,), grid.scratch, self.crew
         return over_particles(
-            crew,
+            self.crew,
             work,
             self.shape,
-            grid.mesh,
-            place,
+            grid.frame,
+            s.place,
             s.half,
             s.x,
-            read,
-            scratch,
-            fill,
+            None if nodes is None else (nodes, grid.above),
+            grid.scratch,
+            tiles or (grid.solid.tiles,),
             fresh,
             arrays,
         )
@@ -44,7 +41,7 @@ class Loops:
         grid = self.grid
         work, tiles, scratch, arrays = task
         place = (grid.chunk, grid.active_corner, grid.below)
-        over_nodes(self.crew, work, self.shape, grid.mesh, place, tiles, scratch, arrays)
+        over_nodes(self.crew, work, self.shape, grid.frame, place, tiles, scratch, arrays)
 
 
 class Stages(Loops):
@@ -64,12 +61,12 @@ class Stages(Loops):
     def update_momentum(self, h):
         """Integrate the nodal momentum over h."""
         task = self.nodal.momentum(self, h)
-        for effect in self.effects:
-            effect.before_nodes(self, task)
+        for act in self.asked["before_nodes"]:
+            act(self, task)
         self.over_nodes(task)
         self.clock.lap("grid update")
-        for effect in self.effects:
-            effect.after_nodes(self, h)
+        for act in self.asked["after_nodes"]:
+            act(self, h)
 
     def update_velocity(self, after):
         """Make nodal velocities of the momentum in the tiles, `after` the step or before it."""
@@ -78,16 +75,16 @@ class Stages(Loops):
 
     def gather(self, h, stress=True):
         """Move the particles; change velocities by h times the acceleration unless h is None."""
-        for effect in self.effects:
-            effect.before_gather(self, h)
+        for act in self.asked["before_gather"]:
+            act(self, h)
         nodes, step = self.grid.nodes, 0.0 if h is None else h
         for s in self.sets:
             work = Gather(s.law if stress else None, s.rotation, self.time_step, step)
             arrays = (None if h is None else s.v, s.V, s.stress, s.state, s.strain)
             self.gone += self.over_particles(work, s, arrays, None, nodes)
         self.clock.lap("gather")
-        for effect in self.effects:
-            self.gone += effect.after_gather(self)
+        for act in self.asked["after_gather"]:
+            self.gone += act(self)
 
     def remap(self, h):
         """Change velocities by h times the acceleration, put the new momentum into the tiles."""
@@ -96,8 +93,8 @@ class Stages(Loops):
             arrays, fresh = (s.v, s.m), number == 0
             self.over_particles(Remap(h), s, arrays, (grid.tiles,), grid.nodes, fresh)
         self.clock.lap("remap")
-        for effect in self.effects:
-            effect.after_remap(self, h)
+        for act in self.asked["after_remap"]:
+            act(self, h)
 
     def strain_and_force(self):
         """Update stress with the nodal velocities, add the internal force to the tiles."""

@@ -48,6 +48,17 @@ def crew_of(count):
     return (start, count) if start else ALONE
 
 
+def most_threads():
+    """Return how many threads numba has; ValueError if the layer asked for cannot start them."""
+    if numba.config.THREADING_LAYER != "default":
+        try:
+            numba.get_num_threads()
+        except ValueError as error:
+            layer, reason = numba.config.THREADING_LAYER, str(error).partition("\n")[0]
+            raise ValueError(f"NUMBA_THREADING_LAYER {layer!r} of numba: {reason}") from error
+    return numba.config.NUMBA_NUM_THREADS
+
+
 def blockwise(function):
     """Compile `function(c, …)`, the work in chunk c, as a kernel that is called with a crew, …
 

@@ -33,7 +33,7 @@ def generic(stub):
         for known in cls.__mro__:
             if known in implementations:
                 return implementations[known]
-        raise TypeError(f"{stub.__name__} has no implementation for {cls.__name__}")
+        raise TypeError(f"{stub.__name__} has no implementation for {cls.__qualname__}")
 
     def chosen(model):
         if model is None or isinstance(model, types.NoneType):
@@ -54,11 +54,12 @@ def generic(stub):
     def register(cls):
         def add(implementation):
             if cls in implementations:
-                raise ValueError(f"{stub.__name__} has an implementation for {cls.__name__}")
+                raise ValueError(f"{stub.__name__} has an implementation for {cls.__qualname__}")
             found = list(inspect.signature(implementation).parameters)
             if found != names:
                 raise ValueError(f"{stub.__name__} takes ({arguments}), not ({', '.join(found)})")
             implementations[cls] = implementation
+            _name_apart(cls)
             if _is_ours(stub) and not _is_ours(implementation):
                 keep_apart(implementation.__code__.co_filename)
             return implementation
@@ -99,6 +100,17 @@ def in_turn(function, *values):
     )
     overload(scope[name], jit_options=INLINED)(scope["template"])
     return scope[name]
+
+
+def _name_apart(cls):
+    """Give a NamedTuple a name that no other has.
+
+    When a kernel is called numba knows NamedTuples only by their names and by their fields, of
+    which it drops all letters that are not ASCII: two classes `Symbols` of one Greek letter each
+    would run the kernel of whichever came first.
+    """
+    if hasattr(cls, "_fields"):
+        cls.__name__ = f"{cls.__module__}.{cls.__qualname__}"
 
 
 def _is_ours(function):

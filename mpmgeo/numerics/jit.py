@@ -1,13 +1,18 @@
 """Compilation: decorators for kernels, a cache folder that never serves code of older sources."""
 
 import hashlib
-import os
 import sys
-import tempfile
 from pathlib import Path
 
 import numba
 from numba.extending import register_jitable
+
+from mpmgeo.numerics.cache import complain, keep, own_folder, troubles
+from mpmgeo.numerics.environment import Unusable, examine
+
+examine()
+if numba.config.DISABLE_JIT:
+    raise Unusable("numba is set not to compile, but this program runs compiled")
 
 # Without nnan and ninf: the compiler may neither delete a NaN test nor assume that a NaN is inside.
 FAST = {"nsz", "arcp", "contract", "afn", "reassoc"}
@@ -25,17 +30,7 @@ def _cache_folder():
     for folder in sorted(f for f in package.iterdir() if f.is_dir() and f.name not in NO_KERNELS):
         for source in sorted(folder.rglob("*.py")):
             digest.update(source.read_bytes())
-    home = os.environ.get("NUMBA_CACHE_DIR") or os.environ.get("XDG_CACHE_HOME")
-    places = [Path(home) if home else Path.home() / ".cache", Path(tempfile.gettempdir())]
-    for place in places:
-        folder = place / "mpmgeo" / digest.hexdigest()[:16]
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-        except OSError:
-            continue
-        if os.access(folder, os.W_OK):
-            return str(folder)
-    return ""
+    return own_folder(digest.hexdigest()[:16])
 
 
 numba.config.CACHE_DIR = _cache_folder()
@@ -53,19 +48,24 @@ def keep_apart(source):
     path = Path(source)
     content = path.read_bytes() if path.is_file() else source.encode()
     folder = Path(numba.config.CACHE_DIR) / hashlib.sha256(content).hexdigest()[:16]
-    folder.mkdir(exist_ok=True)
-    numba.config.CACHE_DIR = str(folder)
+    try:
+        folder.mkdir(mode=0o700, exist_ok=True)
+        numba.config.CACHE_DIR = str(folder)
+    except OSError as error:
+        complain(error)
+        numba.config.CACHE_DIR = ""
     for function in _cached:
-        function.enable_caching()
+        keep(function)
 
 
 def remarks():
     """Return what keeps two runs of a case from having the same bits, one sentence each."""
-    if numba.config.CACHE_DIR:
+    if numba.config.CACHE_DIR and not troubles:
         return []
+    reason = troubles[0] if troubles else "there is no folder for them"
     return [
-        "no folder for compiled kernels can be written ($NUMBA_CACHE_DIR, $XDG_CACHE_HOME, "
-        "~/.cache): every run compiles them anew, so last bits may differ from run to run"
+        f"compiled kernels are not kept ({reason}; $NUMBA_CACHE_DIR can name another folder): "
+        "every run compiles them anew, so last bits may differ from run to run"
     ]
 
 
@@ -76,9 +76,9 @@ def inlined(function):
 
 def compiled(function):
     """Compile a function; while it runs, other threads of Python run, too."""
-    folder = bool(numba.config.CACHE_DIR)
-    dispatcher = numba.njit(cache=folder, nogil=True, **OPTIONS)(function)
-    if folder:
+    dispatcher = numba.njit(nogil=True, **OPTIONS)(function)
+    if numba.config.CACHE_DIR:
+        keep(dispatcher)
         _cached.append(dispatcher)
     return dispatcher
 

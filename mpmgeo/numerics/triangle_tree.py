@@ -16,6 +16,7 @@ from mpmgeo.numerics.jit import inlined
 
 LEAF = 4  # triangles that a lowest box holds at most
 DEPTH = 64  # boxes that wait at most while a point is looked up
+TIE = 1e-12  # relative difference up to which two distances may differ by round-off alone
 BITS = 21  # of a Morton code, for each axis
 VERTEX_1, VERTEX_2, VERTEX_3, EDGE_12, EDGE_23, EDGE_31, FACE = range(7)
 
@@ -158,4 +159,31 @@ def nearest(tree, x, y, z, guess, waiting):
         if da <= least:
             waiting[count] = a
             count += 1
+    return best
+
+
+@inlined
+def first_of_nearest(tree, x, y, z, best, waiting):
+    """Return the caller's first one of the triangles that are as near as `best`, the nearest one.
+
+    Round-off aside: above a convex edge two triangles are equally near, in a whole wedge.
+    """
+    leaves = len(tree.first) - 1
+    reach = _square(tree.corner, best, x, y, z) ** 0.5
+    reach += TIE * (reach + abs(x) + abs(y) + abs(z))
+    most = reach * reach
+    waiting[0] = 0
+    count = 1
+    while count > 0:
+        count -= 1
+        i = waiting[count]
+        if i >= leaves - 1:
+            for t in range(tree.first[i - leaves + 1], tree.first[i - leaves + 2]):
+                if tree.number[t] < tree.number[best] and _square(tree.corner, t, x, y, z) <= most:
+                    best = t
+            continue
+        for child in range(2 * i + 1, 2 * i + 3):
+            if _outside(tree.box, child, x, y, z) <= most:
+                waiting[count] = child
+                count += 1
     return best

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mpmgeo.output.earlier import earlier
-from mpmgeo.output.whole_file import whole_file
+from mpmgeo.output.whole_file import append, whole_file
 
 HEADER = "time,energy\n"
 
@@ -22,8 +22,7 @@ class EnergySeries:
 
     def add(self, time: float, energy: float) -> None:
         """Append the kinetic energy [J] at a time [s], both with all their digits."""
-        with self.path.open("a", encoding="ascii") as file:
-            file.write(f"{float(time)!r},{float(energy)!r}\n")
+        append(self.path, f"{float(time)!r},{float(energy)!r}\n")
 
 
 def earlier_rows(path: Path | str, time: float, is_due: bool) -> list[str]:

@@ -5,6 +5,7 @@ from functools import cache
 import numpy as np
 
 from mpmgeo.naming import GHOSTS
+from mpmgeo.positions import mean_edge
 
 _NAMES = {
     "id": "NodeId",
@@ -46,7 +47,7 @@ def grid_arrays(solver, node_id, keys):
         values["density_levelset"] = lambda: _density(solver, nodes, node_id)
     arrays = {_NAMES[key]: values[key]() for key in keys}
     if ground is not None and solver.effect("base") is not None:
-        near = 0.25 * (mesh.hx + mesh.hy + mesh.hz) / 3
+        near = 0.25 * mean_edge((mesh.hx, mesh.hy, mesh.hz))
         arrays["Seismic Node"] = (np.abs(distance()) < near).astype(np.uint8)
     return arrays
 
@@ -64,8 +65,8 @@ def _index(nodes, node_id):
 
 def _density(solver, nodes, node_id):
     """Return the share of the nodes' volume that particles fill."""
-    density = solver.ground.density(solver).ravel()
-    index = solver.grid.indices().reshape(-1, 3) + GHOSTS
+    index, density = solver.ground.density(solver)
+    index = index + GHOSTS
     inside = (index >= 0).all(axis=1) & (index < nodes).all(axis=1) & (density > 0)
     number = index[inside] @ np.array([1, nodes[0], nodes[0] * nodes[1]])
     values = np.zeros(len(node_id))

@@ -4,7 +4,7 @@ import numpy as np
 
 from mpmgeo.naming import PLANES
 from mpmgeo.output.probes.probe import VECTOR
-from mpmgeo.output.whole_file import whole_file
+from mpmgeo.output.whole_file import append, whole_file
 
 ROWS = 1000
 """Rows that are kept in memory at most."""
@@ -55,8 +55,7 @@ class History:
     def flush(self):
         """Put the rows into the file."""
         if self._rows:
-            with self.path.open("a", encoding="utf-8") as file:
-                file.writelines(self._rows)
+            append(self.path, "".join(self._rows))
             self._rows.clear()
 
     def cut(self, time):

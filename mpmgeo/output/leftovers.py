@@ -18,25 +18,33 @@ PLACES = (
 class Leftovers:
     """Watches a run and says which files of others stay in its `folder`.
 
-    `written`: files that this run writes itself, or folders in which it looks after all files.
+    `histories`: those that the run writes.
     """
 
-    def __init__(self, folder: Path, written: list[Path]):
-        self.folder, self.written = folder, set(written)
+    def __init__(self, folder: Path, histories):
+        self.folder, self.histories = folder, histories
 
     def begin(self, simulation):
         """Say what is there that this run will not replace, unless it goes on."""
-        for place, pattern in () if simulation.goes_on else PLACES:
+        if simulation.goes_on:
+            return
+        own = self._own(simulation)
+        for place, pattern in PLACES:
             folder = self.folder / place
-            found = sorted(path for path in folder.glob(pattern) if path not in self.written)
-            if found and folder not in self.written:
+            found = sorted(path for path in folder.glob(pattern) if path not in own)
+            if found and folder not in own:
                 simulation.say(
                     f"{folder} holds {len(found)} of the files of an earlier run, which stay: "
                     f"{found[0].name}{' and others' if len(found) > 1 else ''}"
                 )
 
-    def after_step(self, simulation):
-        """Do nothing."""
-
-    def end(self, simulation, error):
-        """Do nothing."""
+    def _own(self, simulation):
+        """Return files that the run writes, and folders in which it looks after all files."""
+        case = simulation.case
+        asked = (
+            (case.save_state, STRESS_FILE),
+            (case.snapshot is not None, SNAPSHOTS),
+            (simulation.solver.ground is not None, TERRAIN),
+        )
+        own = {history.path for history in self.histories}
+        return own | {self.folder / name for is_asked, name in asked if is_asked}

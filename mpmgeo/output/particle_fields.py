@@ -34,8 +34,7 @@ WITH_STRAIN = ("strain", "deviatoric_strain")
 
 
 def particle_field(solver, key):
-    """Return a field of all particles in row order: any key of a case, or position, mass,
-    mass_fluid.
+    """Return a field of all particles in row order: one of `particle_field_names`.
 
     Shape (n,), (n, 3), or (n, 6) for stress and strain (xx yy zz xy yz xz); SI units. Raises
     KeyError for an unknown key, for a strain that is not kept, for a fluid that is not there.
@@ -49,6 +48,13 @@ def particle_field(solver, key):
     return field
 
 
+def particle_field_names(solver):
+    """Return the names of all fields: keys of a case, some that only scripts use, and variables of
+    the laws in use, which are zero for other laws."""
+    names = [*PARTICLE_FIELDS, *_ARRAYS, *_VALUES, *_OF_THE_FLUID]
+    return list(dict.fromkeys([*names, *(name for s in solver.sets for name in s.law.STATE)]))
+
+
 def field_of(solver, s, key, at=slice(None)):
     """Return a field of the particles `at` (indices or a slice) of a set, as `particle_field`."""
     if key in _ARRAYS:
@@ -59,7 +65,9 @@ def field_of(solver, s, key, at=slice(None)):
         if s.fluid is None:
             raise KeyError(f"{key}: exists with two phases only")
         return _OF_THE_FLUID[key](s, at)
-    if key in PARTICLE_FIELDS:
+    if key in s.law.STATE:
+        return s.state[at, s.law.STATE.index(key)]
+    if key in particle_field_names(solver):
         return np.zeros((len(s.row[at]), *_shape(key)))
     raise KeyError(key)
 
@@ -103,12 +111,6 @@ def _mass(solver, s, at):
     return s.m[at] if s.fluid is None else s.m[at] + s.mf[at]
 
 
-def _plastic_strain(solver, s, at):
-    if "plastic_strain" not in s.law.STATE:
-        return np.zeros(len(s.row[at]))
-    return s.state[at, s.law.STATE.index("plastic_strain")]
-
-
 def _undrained_strength(solver, s, at):
     return getattr(s.law, "su", 0.0) * np.maximum(-s.stress[at, 2], 0.0)
 
@@ -121,7 +123,7 @@ def _external_force(solver, s, at):
 def _distance(solver, s, at):
     if solver.ground is None:
         return np.zeros(len(s.row[at]))
-    return solver.ground.distance(s.x[at])
+    return solver.ground.level(s, at)
 
 
 def _contact(first):
@@ -167,7 +169,6 @@ _VALUES = {
     "body": lambda solver, s, at: solver.population.body[s.row[at]],
     "active": _active,
     "Su": _undrained_strength,
-    "plastic_strain": _plastic_strain,
     "pressure": _pressure,
     "pore_pressure": _pressure,
     "external_force": _external_force,

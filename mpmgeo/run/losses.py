@@ -2,15 +2,11 @@
 
 import numpy as np
 
+from mpmgeo.run.watch import Watcher
 
-class Losses:
+
+class Losses(Watcher):
     """Watches a run and tells at its end how many particles have left the mesh."""
-
-    def begin(self, simulation):
-        """Do nothing."""
-
-    def after_step(self, simulation):
-        """Do nothing; the solver keeps the departures."""
 
     def end(self, simulation, error):
         """Say how many have left since the case began, when the last, and with what mass."""

@@ -5,7 +5,10 @@ from time import perf_counter
 
 from numba.core import event
 
-REFRESH = 0.2  # s between updates of the bar
+from mpmgeo.run.bar import REFRESH, Bar
+from mpmgeo.run.terminal import without_controls
+from mpmgeo.run.watch import Watcher
+
 LINE = 10.0  # s between plain lines
 
 
@@ -25,6 +28,11 @@ class Compilation(event.Listener):
     def __exit__(self, *_):
         event.unregister("numba:compile", self)
 
+    @property
+    def running(self):
+        """Seconds of compilation so far if kernels are being compiled, else None."""
+        return self.seconds + perf_counter() - self._begin if self._depth else None
+
     def on_start(self, _):
         """Note that a compilation begins, perhaps inside another one; numba calls this."""
         if self._depth == 0:
@@ -43,7 +51,7 @@ class Compilation(event.Listener):
                 self.clock.leave_out(seconds)
 
 
-class Progress:
+class Progress(Watcher):
     """Watches a run and shows step, time, share done, time left, speed and kinetic energy."""
 
     def __init__(self, compilation, stream=None):
@@ -60,27 +68,7 @@ class Progress:
         self._work = self._first_work = 0  # steps of active particles
         self._messages = len(simulation.messages)
         if self.live:
-            self._begin_bar(simulation)
-
-    def _begin_bar(self, simulation):
-        from rich.console import Console
-        from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
-
-        self._bar = Progress(
-            TextColumn("step {task.fields[step]}"),
-            TextColumn("t = {task.fields[time]:.4g} s"),
-            BarColumn(),
-            TextColumn("{task.percentage:3.0f}%"),
-            TimeRemainingColumn(),
-            TextColumn("{task.fields[speed]:.2f} M particle-steps/s"),
-            TextColumn("Ekin {task.fields[energy]:.3e} J"),
-            console=Console(file=self.stream),
-            refresh_per_second=1 / REFRESH,
-        )
-        self._task = self._bar.add_task(
-            "run", total=simulation.case.time, step=0, time=0.0, speed=0.0, energy=0.0
-        )
-        self._bar.start()
+            self._bar = Bar(self.stream, simulation.case.time, self.compilation)
 
     def after_step(self, simulation):
         """Show the state if it is time to."""
@@ -96,32 +84,38 @@ class Progress:
         if now - self._shown < (REFRESH if self.live else LINE):
             return
         self._shown = now
-        self._show(simulation, self._speed(now))
+        self._show(simulation, now)
+
+    def _seconds(self, now):
+        """Return the time [s] since the first step, without that of compilation; 0 before it."""
+        if self._first_step is None:
+            return 0.0
+        return now - self._first_step - (self.compilation.seconds - self._compiled)
 
     def _speed(self, now):
-        done = self._work - self._first_work
-        compiled = self.compilation.seconds - self._compiled
-        return done / max(now - self._first_step - compiled, 1e-9) / 1e6
+        if self._first_step is None:
+            return 0.0
+        return (self._work - self._first_work) / max(self._seconds(now), 1e-9) / 1e6
 
-    def _show(self, simulation, speed):
-        share = min(simulation.time / simulation.case.time, 1.0)
+    def _left(self, simulation, now):
+        """Return the time that the run still takes [s], None before there is an estimate."""
+        done = 0.0 if self._first_step is None else simulation.time - self._first_time
+        if not done > 0:
+            return None
+        return max(simulation.case.time - simulation.time, 0.0) * self._seconds(now) / done
+
+    def _show(self, simulation, now):
+        speed, left = self._speed(now), self._left(simulation, now)
+        energy = simulation.kinetic_energy()
         if self._bar is not None:
-            self._bar.update(
-                self._task,
-                completed=simulation.time,
-                step=simulation.steps,
-                time=simulation.time,
-                speed=speed,
-                energy=simulation.kinetic_energy(),
-            )
+            time, steps = simulation.time, simulation.steps
+            self._bar.update(left, time, step=steps, speed=speed, energy=energy)
             return
-        simulated = simulation.time - self._first_time
-        pace = (perf_counter() - self._first_step) / max(simulated, 1e-300)
-        left = max(simulation.case.time - simulation.time, 0.0) * pace
+        share = min(simulation.time / simulation.case.time, 1.0)
+        ahead = "" if left is None else f"{left:.0f} s left, "
         self._print(
             f"step {simulation.steps}, t = {simulation.time:.4g} s, {100 * share:.0f}%, "
-            f"{left:.0f} s left, {speed:.2f} M particle-steps/s, "
-            f"Ekin {simulation.kinetic_energy():.3e} J"
+            f"{ahead}{speed:.2f} M particle-steps/s, Ekin {energy:.3e} J"
         )
 
     def _news(self, simulation):
@@ -130,8 +124,10 @@ class Progress:
         self._messages = len(simulation.messages)
 
     def _print(self, line):
-        if self._bar is not None and self._bar.live.is_started:
-            self._bar.console.print(line, highlight=False)
+        """Print a line that may hold words of the user, which are no markup."""
+        line = without_controls(line)
+        if self._bar is not None:
+            self._bar.print(line)
             return
         print(line, file=self.stream, flush=True)
 
@@ -139,8 +135,9 @@ class Progress:
         """Close the bar and show where the time went."""
         now = perf_counter()
         if self._bar is not None:
-            self._show(simulation, self._speed(now) if self._first_step else 0.0)
+            self._show(simulation, now)
             self._bar.stop()
+            self._bar = None
         self._news(simulation)
         if error is None:
             self._table(simulation, now)
@@ -148,8 +145,10 @@ class Progress:
     def _table(self, simulation, now):
         from rich.console import Console
         from rich.table import Table
+        from rich.text import Text
 
-        table = Table(title=simulation.case.title or None, show_edge=False, header_style="")
+        title = Text(without_controls(simulation.case.title or ""), "table.title")
+        table = Table(title=title or None, show_edge=False, header_style="")
         table.add_column("stage")
         table.add_column("s", justify="right")
         table.add_column("ns/particle/step", justify="right")

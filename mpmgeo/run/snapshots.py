@@ -2,10 +2,12 @@
 
 import re
 
+from mpmgeo.run.watch import Watcher
+
 FOLDER = "snapshots"
 
 
-class Snapshots:
+class Snapshots(Watcher):
     """Watches a run and writes its state every so many steps, and where the run stops.
 
     `histories` are completed before, so that they hold all that comes before the state.

@@ -1,13 +1,33 @@
-"""The guard: checks the state from time to time and keeps the last one that was sound."""
+"""Who watches a run: what watchers are told, how they stop it, and the guard, which is one."""
 
 EVERY = 50  # steps between checks
+
+
+class Watcher:
+    """What is told of a run, and does nothing; an object of another class may lack methods.
+
+    `begin` and `after_step` may raise StopRun.
+    """
+
+    def begin(self, simulation):
+        """Hear that a run begins, before its first step."""
+
+    def after_step(self, simulation):
+        """Hear that a step is done."""
+
+    def end(self, simulation, error):
+        """Hear that the run is over, in any case; `error`: what ended it, or None."""
+
+
+class StopRun(Exception):
+    """Ends a run as if its time were over, once all watchers know the step; the text says why."""
 
 
 class Diverged(Exception):
     """A run whose particles became NaN, infinite or too fast; the message says where and why."""
 
 
-class Guard:
+class Guard(Watcher):
     """Checks before every output and every `EVERY` steps; goes back to the last sound state.
 
     `outputs`: steps between outputs.

@@ -14,9 +14,11 @@ from typing import NamedTuple
 import numpy as np
 
 from mpmgeo.numerics.chunks import CHUNKS
+from mpmgeo.numerics.jit import inlined
 from mpmgeo.numerics.simd import LANES, aligned
+from mpmgeo.state.checked import array_from, demand
 from mpmgeo.state.field import Field, Lanes
-from mpmgeo.state.layout import SIDE, blocks_along, volume
+from mpmgeo.state.layout import NODES, SIDE, blocks_along, volume
 
 SOLID = Lanes(
     tile={"mass": (0, 1), "momentum": (1, 3), "force": (4, 3), "mass of tools": (7, 1)},
@@ -47,6 +49,16 @@ class Mesh(NamedTuple):
         return cls(*map(float, cell), *inverse, *map(int, cells))
 
 
+@inlined
+def mesh_of(frame):
+    """Return the symbols of the mesh whose numbers an array (9,) holds, in their order.
+
+    A call from Python passes an array in a tenth of the time of a NamedTuple of nine numbers.
+    """
+    h, i, n = frame[:3], frame[3:6], frame[6:]
+    return Mesh(h[0], h[1], h[2], i[0], i[1], i[2], int(n[0]), int(n[1]), int(n[2]))
+
+
 def keys_of(corner):
     """Return the keys (n,) of block corners (n, 3)."""
     c = np.asarray(corner, np.int64) + KEY_SHIFT
@@ -60,6 +72,13 @@ def corners_of(keys):
     return np.stack(parts, axis=-1) - KEY_SHIFT
 
 
+def nodes_of(corner):
+    """Return the node indices (n, 64, 3) of blocks of a corner (n, 3)."""
+    steps = np.arange(SIDE)
+    inner = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), -1).reshape(-1, 3)
+    return corner[:, None] * SIDE + inner
+
+
 def _find(table, keys):
     """Return the position of each key in the sorted table, −1 where it is not there."""
     at = np.minimum(np.searchsorted(table, keys), len(table) - 1)
@@ -71,6 +90,7 @@ class Grid:
 
     def __init__(self, mesh: Mesh, width: int):
         self.mesh = mesh
+        self.frame = np.array(mesh, float)  # the same for `mesh_of`
         self.width = width
         self.side = SIDE + width - 1  # nodes along a tile's edge
         self.rows = (self.side,) * 3
@@ -118,18 +138,27 @@ class Grid:
 
     def indices(self):
         """Return the node indices of the active blocks, shape (blocks, 64, 3)."""
-        steps = np.arange(SIDE)
-        inner = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), -1).reshape(-1, 3)
-        return self.active_corner[:, None] * SIDE + inner
+        return nodes_of(self.active_corner)
 
     def held(self):
         """Return what a run that goes on needs of the grid, by name."""
         return {"keys": self.keys, "records": self.records()}
 
     def take(self, state):
-        """Go on with what `held` once returned."""
-        self.cover(state.pop("keys").copy())
-        np.copyto(self.records(), state.pop("records"))
+        """Go on with what `held` once returned; ValueError for blocks that cannot be."""
+        keys = array_from(state, "keys", self.keys.dtype, (None,))
+        records = array_from(state, "records", np.float64, (self.blocks_under(keys), NODES, LANES))
+        self.cover(keys.copy())
+        np.copyto(self.records(), records)
+
+    def blocks_under(self, keys):
+        """Return how many blocks lie under the tiles of owners; ValueError if these cannot be."""
+        demand((keys[1:] > keys[:-1]).all(), "keys are not in order")
+        corner = corners_of(keys)
+        last = np.array([self.mesh.nx, self.mesh.ny, self.mesh.nz]) // SIDE
+        inside = ((corner >= -self.reach) & (corner <= last)).all()
+        demand(inside and (keys >= 0).all(), "keys name blocks outside the mesh")
+        return len(np.unique(keys_of(corner[:, None] + self._steps)))
 
     def nbytes(self):
         """Return the memory of all arrays [bytes]."""

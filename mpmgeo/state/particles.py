@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mpmgeo.state.checked import array_from, demand
 from mpmgeo.state.grid import cut
 
 ARRAYS = (
@@ -50,7 +51,7 @@ class ParticleSet:
     pressure: np.ndarray | None = None  # (n,) given pore pressure [Pa], compression positive
     strain: np.ndarray | None = None  # (n, 6) sum of the strain increments [-]
     due: np.ndarray | None = None  # (n,) when to look for contact, see `mpm.touch`; −1 in contact
-    contact: np.ndarray | None = None  # (n, 9) normal, tangential force [N], displacement out [m]
+    contact: np.ndarray | None = None  # (n, …) forces and shift of contact, see `mpm.terrain`
     tool: int | None = None  # number of the prescribed velocity that the particles have
     fluid: object = None  # symbols of the pore fluid; with it m is the solid's mass
     mf: np.ndarray | None = None  # (n,) mass of the fluid [kg]
@@ -62,15 +63,17 @@ class ParticleSet:
     chunk: np.ndarray = field(init=False)  # bounds of the chunks of blocks
 
     def __post_init__(self):
-        self.begin = self.end = None  # first particle of each block, and the one after its last
+        self.place = None  # for loops, see `lie_in`
         self.start = np.array([0, len(self.row)])  # one heap, until the first sort
         self.chunk = cut(self.start)
 
-    def __setattr__(self, name, value):
-        """Set an attribute; bounds of the blocks' particles follow from `start`."""
-        super().__setattr__(name, value)
-        if name == "start":
-            self.begin, self.end = value[:-1], value[1:]
+    def lie_in(self, grid):
+        """Note where the particles lie in the blocks of a grid, for loops over them.
+
+        `place`: bounds of the chunks of blocks, first particle of each and the one after its last,
+        corners of the blocks.
+        """
+        self.place = self.chunk, self.start[:-1], self.start[1:], grid.corner
 
     def arrays(self):
         """Return the arrays that are permuted together, by name."""
@@ -82,15 +85,18 @@ class ParticleSet:
 
     def take(self, state):
         """Go on with what `held` once returned; ValueError for arrays of other particles."""
-        for name, array in self.arrays().items():
-            found = state.pop(name)
-            if found.shape != array.shape or found.dtype != array.dtype:
-                raise ValueError(
-                    f"the snapshot has an array {found.dtype} {found.shape} where the case needs "
-                    f"{array.dtype} {array.shape}"
-                )
-            np.copyto(array, found)
-        self.start, self.chunk = state.pop("start").copy(), state.pop("chunk").copy()
+        given = {n: array_from(state, n, a.dtype, a.shape) for n, a in self.arrays().items()}
+        start = array_from(state, "start", self.start.dtype, (None,))
+        chunk = array_from(state, "chunk", self.chunk.dtype, self.chunk.shape)
+        rows = np.sort(given["row"]), np.sort(self.row)
+        demand(np.array_equal(*rows), "row holds other particles than those of the case")
+        is_sound = len(start) > 0 and start[0] == 0 and start[-1] <= len(self.row)
+        is_sound = is_sound and (start[1:] >= start[:-1]).all()  # differences may overflow
+        demand(is_sound, "start holds no bounds of the particles")
+        demand(np.array_equal(chunk, cut(start)), "chunk does not fit start")
+        for name, found in given.items():
+            np.copyto(getattr(self, name), found)
+        self.start, self.chunk = start.copy(), chunk.copy()
 
     def stop(self):
         """Set the velocities of the active particles to zero, of both phases."""

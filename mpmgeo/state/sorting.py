@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mpmgeo.numerics.chunks import ALONE, CHUNKS, blockwise
+from mpmgeo.numerics.chunks import CHUNKS, blockwise
 from mpmgeo.numerics.jit import compiled, inlined
 from mpmgeo.state.grid import KEY_BITS, KEY_SHIFT, cut
 
@@ -136,6 +136,17 @@ def assign(target, start, places, origin):
     return moves
 
 
+@compiled
+def permute(a, places, origin, rows):
+    """Move row `places[origin[i]]` of a to row `places[i]`, by way of `rows`."""
+    for i in range(len(origin)):
+        for column in range(a.shape[1]):
+            rows[i, column] = a[places[origin[i]], column]
+    for i in range(len(origin)):
+        for column in range(a.shape[1]):
+            a[places[i], column] = rows[i, column]
+
+
 @blockwise
 def take(c, a, places, origin, rows):
     """Copy row `places[origin[i]]` of a to row i of `rows`."""
@@ -198,15 +209,19 @@ def sort(grid, sets, crew, walls=OPEN):
         moves = assign(target, start, places, origin)
         places, origin = places[:moves], origin[:moves]
         if moves:
-            rows, movers = np.empty(moves * 6), ALONE if moves <= FEW else crew
+            rows = np.empty(moves * 6)
             for a in map(_rows, s.arrays().values()):
                 width = a.shape[1]
                 if moves * width > rows.size:
                     rows = np.empty(moves * width)
                 moved = rows[: moves * width].reshape(moves, width)
-                take(movers, a, places, origin, moved)
-                put(movers, a, places, moved)
+                if moves <= FEW:
+                    permute(a, places, origin, moved)
+                else:
+                    take(crew, a, places, origin, moved)
+                    put(crew, a, places, moved)
         s.start = start[:-1]
         s.chunk = cut(s.start)
+        s.lie_in(grid)
         left.append(int(counts[-1]))
     return left

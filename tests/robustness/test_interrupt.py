@@ -1,4 +1,4 @@
-"""Ctrl-C and SIGTERM: the step is finished, the last outputs are whole, the exit code is 130."""
+"""Ctrl-C, SIGTERM and SIGHUP: the step is finished, the last outputs whole, the exit code 130."""
 
 import json
 import os
@@ -70,7 +70,7 @@ def listed(path):
     return [(float(entry.get("timestep")), path.parent / entry.get("file")) for entry in entries]
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, getattr(signal, "SIGHUP", None)])
 def test_the_first_signal_ends_the_run_in_good_order(case, tmp_path, number):
     process = start(tmp_path)
     process.send_signal(number)

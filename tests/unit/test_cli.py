@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from mpmgeo import cli
+from mpmgeo.case.building.lint import lint
 from mpmgeo.run.watch import Diverged
 
 
@@ -50,6 +51,10 @@ def simulations(monkeypatch):
             self.messages = ["a note of the simulation"]
             self.has_run = False
             made.append(self)
+
+        @property
+        def warnings(self):
+            return lint(self)
 
         def field(self, name):
             return {"position": np.zeros((1, 3)), "body": np.ones(1, dtype=np.uint32)}[name]
@@ -139,6 +144,20 @@ def test_ends_of_a_run(case_file, simulations, capsys, error, code, message):
     assert message in text_of(capsys)
 
 
+def test_errors_of_files_say_that_these_are_the_output(case_file, simulations, capsys):
+    simulations[0].ends_with = OSError(28, "No space left on device", "a.vtu")
+    assert cli.main(["case.json"]) == cli.BAD_INPUT
+    assert "a.vtu: No space left on device (this is the output of the run)" in text_of(capsys)
+    assert cli.main(["case.json", "--output", "case.json"]) == cli.BAD_INPUT
+    assert "case.json: File exists (this is the output of the run)" in text_of(capsys)
+
+
+def test_messages_do_not_steer_the_terminal(case_file, simulations, capsys):
+    simulations[0].ends_with = Diverged("[/b] \x1b[31m red")
+    assert cli.main(["case.json"]) == cli.DIVERGED
+    assert "error: [/b] \\x1b[31m red" in text_of(capsys)
+
+
 def test_interrupted_run(case_file, simulations):
     simulations[0].interrupted = True
     assert cli.main(["case.json"]) == cli.INTERRUPTED
@@ -210,6 +229,11 @@ def test_wrong_command_lines(tmp_path, monkeypatch, words, message, capsys):
 def test_help(capsys):
     assert cli.main(["--help"]) == cli.DONE
     assert "Exit codes: 0 done, 2 bad input, 3 the run diverged, 130" in capsys.readouterr().out
+
+
+def test_help_names_the_subcommands(capsys):
+    assert cli.main(["--help"]) == cli.DONE
+    assert all(f"mpmgeo {command}" in capsys.readouterr().out for command in cli.COMMANDS)
 
 
 @pytest.mark.parametrize("option", ["--version", "--help"])

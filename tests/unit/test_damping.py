@@ -76,3 +76,24 @@ def test_with_the_old_form_of_local_damping():
     solver = simulate(two_blocks(damping=kinds, compatibility="mpm-geomechanics")).solver
     assert solver.damping == (MassDamping(alpha=4.0).symbols,)
     assert solver.early_damping == LocalDamping(value=0.1).symbols
+
+
+def test_the_old_form_of_kinetic_damping_stops_when_the_next_step_begins():
+    """So files show velocities before the stop; the motion is the same."""
+    case = two_blocks(damping={"type": "kinetic"}, gravity=[0, 0, -9.81])
+    case["mesh"]["boundary_conditions"] |= {"plane_Z0": "fixed"}
+    case["body"] = case["body"][:1]
+    case["body"][0] |= {"point_p1": [1, 1, 0], "point_p2": [2, 2, 1]}
+    new, old = simulate(case), simulate(case | {"compatibility": "mpm-geomechanics"})
+    stops, energy = 0, 0.0
+    for _ in range(150):
+        new.step()
+        old.step()
+        assert old.field("position") == pytest.approx(new.field("position"), abs=1e-12)
+        assert old.output_energy() == pytest.approx(new.output_energy())
+        assert old.kinetic_energy() == old.output_energy() > 0
+        passed = old.output_energy() < energy
+        assert passed == (new.kinetic_energy() == 0)
+        energy = 0.0 if passed else old.output_energy()
+        stops += passed
+    assert stops > 1

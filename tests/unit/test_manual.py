@@ -11,7 +11,9 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("manual/*.md"), *ROOT.glob("inputs/*/*.md")])
-BLOCK = re.compile(r"<!-- (file: |end of: |same as: |run)(.*?) -->\n```python\n(.*?)```\n", re.DOTALL)
+BLOCK = re.compile(
+    r"<!-- (file: |end of: |same as: |run)(.*?) -->\n```python\n(.*?)```\n", re.DOTALL
+)
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 
 
@@ -61,7 +63,7 @@ def test_laboratory_works_as_the_page_says():
     assert result.returncode == 0, result.stderr
 
 
-@pytest.mark.parametrize("page", ["README.md", "manual/output.md"])
+@pytest.mark.parametrize("page", ["README.md", "manual/output.md", "manual/python.md"])
 def test_library_works_as_the_page_says(page):
     """The code prints the deflection of a cantilever at its end."""
     [(_, _, code)] = blocks(page)
@@ -92,6 +94,11 @@ def test_manual_lists_all_its_pages():
     index = (ROOT / "manual" / "index.md").read_text(encoding="utf-8")
     for page in (ROOT / "manual").glob("*.md"):
         assert page.name == "index.md" or f"({page.name})" in index
+
+
+def test_results_of_the_first_command_are_no_part_of_the_repository():
+    assert "--output results\n" in (ROOT / "README.md").read_text(encoding="utf-8")
+    assert "results/" in (ROOT / ".gitignore").read_text(encoding="utf-8").split()
 
 
 def test_pictures_are_small():

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mpmgeo.positions import resolution, shown
+from mpmgeo.positions import mean_edge, resolution, shown
 
 
 def test_resolution_is_that_of_the_largest_coordinate_that_users_write():
@@ -31,3 +31,9 @@ def test_points_show_their_unit():
 
 def test_few_digits_of_small_ones():
     assert shown((0.123456, 9.87654, 123.456), digits=4) == "(0.1235, 9.877, 123.456) m"
+
+
+@pytest.mark.parametrize("edge", [0.1, 0.3, 0.7, 1.1, 1 / 3])
+def test_the_mean_edge_of_a_cube_is_its_edge(edge):
+    assert mean_edge(3 * [edge]) == edge
+    assert mean_edge([edge, edge, 4 * edge]) == pytest.approx(2 * edge)

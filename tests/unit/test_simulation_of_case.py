@@ -55,6 +55,16 @@ def test_output_interval(time, wanted, interval):
     assert simulation.output_interval == interval
 
 
+def test_output_interval_of_an_automatic_step_of_mpm_geomechanics():
+    """Cells of 0.1 m and waves of 50 m/s: 200 steps of 0.2 ms, where 199 would be 49 an output."""
+    water = {"type": "newtonian", "id": 4, "density": 1e3, "viscosity": 1.0, "bulk": 2.5e6}
+    case = two_blocks(time=0.04, compatibility="mpm-geomechanics", results={"print": 4})
+    del case["time_step"]
+    case |= {"critical_time_step_multiplier": 0.1, "materials": [water, water | {"id": 9}]}
+    case["mesh"] = case["mesh"] | {"cells_dimension": [0.1, 0.1, 0.1]}
+    assert simulate(case).output_interval == 50
+
+
 def test_label_is_the_time_of_the_state():
     simulation = simulate(two_blocks())
     assert simulation.label == 0.0

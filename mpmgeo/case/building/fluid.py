@@ -4,7 +4,6 @@ import numpy as np
 
 from mpmgeo.boundaries.planes import Planes
 from mpmgeo.materials import saturation
-from mpmgeo.mpm.pore_fluid.fluid import PoreFluid
 
 
 def saturate(case, sets, population, laws):
@@ -49,5 +48,7 @@ def pore_fluid(case):
     """Return the fluid in the pores of a case of two phases, None with one."""
     if case.n_phases == 1:
         return None
+    from mpmgeo.mpm.pore_fluid.fluid import PoreFluid
+
     walls = Planes.of(case.mesh.boundary_conditions_fluid)
     return PoreFluid(walls, case.pore_pressure_smoothing)

@@ -4,7 +4,6 @@ import numpy as np
 
 from mpmgeo.boundaries.base_motion import BaseMotion, BaseMotionAsMPMGeomechanics
 from mpmgeo.mpm.effects.base import Base
-from mpmgeo.mpm.effects.tools import Tools
 
 
 def bind_tools(case, population, velocity):
@@ -17,6 +16,8 @@ def bind_tools(case, population, velocity):
     entries = case.prescribed_velocity
     if not entries:
         return None, tool
+    from mpmgeo.mpm.effects.tools import Tools
+
     tools = Tools([entry.motion for entry in entries], [entry.side for entry in entries])
     last = int(population.body.max(initial=0))
     for number, entry in enumerate(entries):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mpmgeo.positions import shown
+from mpmgeo.positions import mean_edge, shown
 
 
 def bind_pressure(case, position, notes):
@@ -13,7 +13,7 @@ def bind_pressure(case, position, notes):
     coupling = case.hydro_mechanical_coupling
     if coupling is None or not coupling.enabled:
         return None
-    cell = sum(case.mesh.cells_dimension) / 3
+    cell = mean_edge(case.mesh.cells_dimension)
     found = coupling.pressures(position, cell, last=case.compatibility is not None)
     idle = np.flatnonzero(~found.matched)
     if len(idle):

@@ -14,11 +14,12 @@ from mpmgeo.state.stress_file import read_stress
 HALF = 0.5  # cells: the largest half-size for which the shapes sum to one
 
 
-def particle_sets(case, population, velocity, laws, tool, touches, notes):
+def particle_sets(case, population, velocity, laws, tool, contact, notes):
     """Return a particle set for each material in use, and apart for each tool."""
     cell = np.array(case.mesh.cells_dimension)
     pressure = bind_pressure(case, population.position, notes)
     strained = not case.results.needed_fields.isdisjoint(WITH_STRAIN)
+    touches = contact is not None
     sets = []
     for index, number in np.unique(np.column_stack([laws, tool]), axis=0):
         rows, law = np.flatnonzero((laws == index) & (tool == number)), case.materials[index]
@@ -41,7 +42,7 @@ def particle_sets(case, population, velocity, laws, tool, touches, notes):
                 pressure=None if pressure is None else pressure[rows],
                 strain=np.zeros((len(rows), 6)) if strained else None,
                 due=np.zeros(len(rows)) if touches else None,
-                contact=np.zeros((len(rows), 9)) if touches else None,
+                contact=np.zeros((len(rows), contact.columns)) if touches else None,
                 tool=int(number) if number >= 0 else None,
             )
         )

@@ -10,10 +10,9 @@ from mpmgeo.case.building.time_step import time_step
 from mpmgeo.case.coordinates import in_mesh
 from mpmgeo.damping import LocalDamping
 from mpmgeo.loads import LOADS
-from mpmgeo.mpm.effects.reactions import Reactions
 from mpmgeo.mpm.schemes import SCHEMES
 from mpmgeo.mpm.solver import Solver
-from mpmgeo.shapes import SHAPES
+from mpmgeo.shapes import AS_MPM_GEOMECHANICS, SHAPES
 from mpmgeo.state.grid import Grid, Mesh
 
 TOUCH = 1e-12  # cells by which a particle must reach over a node; less is round-off
@@ -28,12 +27,13 @@ def build(case):
     case = in_mesh(case, case.mesh.origin)
     population, velocity, law = populate(case, notes)
     mesh = Mesh.of(case.mesh.cells_dimension, case.mesh.cells_number)
-    shape = SHAPES[case.shape_function]
     legacy = case.compatibility is not None
+    shapes = SHAPES | AS_MPM_GEOMECHANICS if legacy else SHAPES
+    shape = shapes[case.shape_function]
     damping, early = _damping(case)
     tools, tool = bind_tools(case, population, velocity)
     contact = bind_terrain(case, mesh, shape.width, population, notes)
-    sets = particle_sets(case, population, velocity, law, tool, contact is not None, notes)
+    sets = particle_sets(case, population, velocity, law, tool, contact, notes)
     if case.n_phases == 2:
         saturate(case, sets, population, law)
     if case.load_state:
@@ -46,7 +46,7 @@ def build(case):
         *_of_loads(case, mesh),
         contact,
         _reactions(case),
-        *(kind.effect() for kind in case.dampings),
+        *(_of_damping(kind, legacy) for kind in case.dampings),
     )
     solver = Solver(
         grid=Grid(mesh, shape.width),
@@ -76,6 +76,11 @@ def _damping(case):
     return models, early[0].symbols if early else None
 
 
+def _of_damping(kind, legacy):
+    """Return what a kind of damping does with the particles as a whole, None for nothing."""
+    return kind.effect_as_mpm_geomechanics() if legacy else kind.effect()
+
+
 def _of_loads(case, mesh):
     """Return what the loads of a case do during a step."""
     return [load.effect(getattr(case, load.key), mesh) for load in LOADS if load.is_several]
@@ -85,4 +90,8 @@ def _reactions(case):
     """Return what measures the forces of planes and prescribed velocities, None if nobody asks."""
     planes = [probe.every for probe in case.results.probes if probe.type == "planes"]
     intervals = {*planes, *(entry.every for entry in case.prescribed_velocity)}
-    return Reactions(intervals, len(case.prescribed_velocity)) if intervals else None
+    if not intervals:
+        return None
+    from mpmgeo.mpm.effects.reactions import Reactions
+
+    return Reactions(intervals, len(case.prescribed_velocity))

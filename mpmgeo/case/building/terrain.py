@@ -3,8 +3,7 @@
 import numpy as np
 
 from mpmgeo.boundaries.distance import Ground
-from mpmgeo.mpm.terrain.contact import Contact, ContactAsMPMGeomechanics
-from mpmgeo.positions import shown
+from mpmgeo.positions import mean_edge, shown
 
 RIM = 0.01  # cells by which a point may be beyond the border of a terrain
 MARGIN = 4  # cells around the mesh in which distances are needed
@@ -19,6 +18,8 @@ def bind_terrain(case, mesh, width, population, notes):
     terrain = case.terrain_contact
     if terrain is None:
         return None
+    from mpmgeo.mpm.terrain.contact import Contact, ContactAsMPMGeomechanics
+
     notes += terrain.surface.notes
     legacy = case.compatibility is not None
     surface = terrain_in_mesh(case, legacy)
@@ -29,15 +30,24 @@ def bind_terrain(case, mesh, width, population, notes):
             f"to {shown(case.mesh.upper, terrain.zero)}; the surface reaches from "
             f"{shown(low, terrain.zero)} to {shown(high, terrain.zero)}"
         )
-    cell = sum(case.mesh.cells_dimension) / 3
+    cell = mean_edge(case.mesh.cells_dimension)
     symbols = terrain.symbols(cell)
     around = surface if legacy else _meeting(case, terrain.surface, symbols.D + MARGIN * cell)
     box = (case.mesh.origin, case.mesh.upper)
     ground = Ground.of(around, *box, max(RIM * cell, terrain.resolution), by_plane=legacy)
     kind = ContactAsMPMGeomechanics if legacy else Contact
     contact = kind(symbols, surface, ground, mesh, width)
+    if legacy:
+        contact.keeps_density = _wants_density(case.results)
     _look_below(terrain, contact, population, legacy, notes)
     return contact
+
+
+def _wants_density(results):
+    """Tell whether files of the grid or of the terrain hold the density."""
+    of_grid = not results.grid_once and "density_levelset" in results.grid_fields
+    of_terrain = not results.terrain_once and "stl_density_levelset" in results.terrain_fields
+    return of_grid or of_terrain
 
 
 def terrain_in_mesh(case, legacy):

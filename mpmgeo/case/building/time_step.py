@@ -5,6 +5,7 @@ from math import inf
 import numpy as np
 
 from mpmgeo.materials import saturation
+from mpmgeo.positions import mean_edge
 
 
 def critical_time_step(case, velocity):
@@ -15,7 +16,7 @@ def critical_time_step(case, velocity):
     """
     cell = case.mesh.cells_dimension
     if case.compatibility is not None:
-        return sum(cell) / 3 / max(law.sound_speed() for law in case.materials)
+        return mean_edge(cell) / max(law.sound_speed() for law in case.materials)
     used = {number for body in case.body if body.active for number in body.materials}
     fastest = np.sqrt((velocity**2).sum(axis=1).max(initial=0.0))
     laws = [law for law in case.materials if law.id in used]

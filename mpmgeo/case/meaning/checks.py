@@ -6,6 +6,7 @@ from mpmgeo.boundaries.terrain import TerrainContact
 from mpmgeo.case.kinds import containers
 from mpmgeo.case.meaning.bodies import check_bodies, check_materials
 from mpmgeo.case.meaning.phases import check_phases, note_idle
+from mpmgeo.case.meaning.schemes import check_schemes
 from mpmgeo.case.meaning.slips import warn_of_slips
 from mpmgeo.case.meaning.steps import check_steps
 from mpmgeo.case.spec import ACTIONS, Case
@@ -23,6 +24,7 @@ def check(draft, report):
     check_materials(draft, sound, report)
     _check_points(draft, report)
     check_steps(draft, report)
+    check_schemes(draft, report)
     _check_files(draft, report)
     _check_names(draft, report)
     _check_base(draft, report)

@@ -17,7 +17,7 @@ def fingerprint(case) -> dict:
 
 def differences(one: dict, other: dict) -> list[str]:
     """Return the paths at which two fingerprints differ."""
-    first, second = dict(_leaves(one)), dict(_leaves(other))
+    first, second = dict(leaves(one)), dict(leaves(other))
     keys = dict.fromkeys([*first, *second])
     return [key for key in keys if first.get(key) != second.get(key)]
 
@@ -37,13 +37,13 @@ def _content(value):
     return content
 
 
-def _leaves(node, path=""):
+def leaves(node, path=""):
     """Yield (path, value) of all values in a tree that are neither list nor object."""
     if isinstance(node, dict):
         for key, value in node.items():
-            yield from _leaves(value, f"{path}.{key}" if path else key)
+            yield from leaves(value, f"{path}.{key}" if path else key)
     elif isinstance(node, list):
         for index, value in enumerate(node):
-            yield from _leaves(value, f"{path}[{index}]")
+            yield from leaves(value, f"{path}[{index}]")
     else:
         yield path, node

@@ -10,7 +10,8 @@ from mpmgeo.case.spec import Case
 class Alias(NamedTuple):
     """An old spelling of a key at a place, as `places` has it.
 
-    `remark` ends the note about it; `is_equal`: both spellings are current, so nothing is noted;
+    `is_unread`: MPM-Geomechanics does not know the old spelling, so with its name in
+    `compatibility` the key is ignored; `is_equal`: both spellings are current, so nothing is noted;
     `wins`: the old spelling counts where both are given, as in MPM-Geomechanics; `unless`: objects
     of these types have a key of the old spelling.
     """
@@ -18,21 +19,19 @@ class Alias(NamedTuple):
     place: tuple[str, ...]
     old: str
     new: str
-    remark: str = ""
+    is_unread: bool = False
     is_equal: bool = False
     wins: bool = False
     unless: tuple[str, ...] = ()
 
 
-UNREAD = ", which MPM-Geomechanics does not read under this spelling"
-
 ALIASES = (
     Alias((), "material", "materials", is_equal=True, wins=True),
-    Alias((), "time_step_multiplier", "critical_time_step_multiplier", UNREAD),
-    Alias((), "nodal_point_loads", "nodal_point_load", UNREAD),
-    Alias(("results",), "fields", "material_point_results", UNREAD),
-    Alias(("results",), "material-point-results", "material_point_results", UNREAD),
-    Alias(("results",), "grid-nodal-results", "grid_nodal_results", UNREAD),
+    Alias((), "time_step_multiplier", "critical_time_step_multiplier", is_unread=True),
+    Alias((), "nodal_point_loads", "nodal_point_load", is_unread=True),
+    Alias(("results",), "fields", "material_point_results", is_unread=True),
+    Alias(("results",), "material-point-results", "material_point_results", is_unread=True),
+    Alias(("results",), "grid-nodal-results", "grid_nodal_results", is_unread=True),
     Alias(("damping",), "alpha", "value", unless=("mass",)),
     Alias(("damping", "*"), "alpha", "value", unless=("mass",)),
 )
@@ -61,10 +60,12 @@ AUTOMATIC = ("time_step", "n_threads")
 
 def rename(tree, report):
     """Replace old spellings in a case's tree by the canonical ones, noting each."""
+    as_there = tree.get("compatibility") is not None
     for alias in ALIASES:
         for path, node in places(tree, alias.place):
             if alias.old in node and node.get("type") not in alias.unless:
-                _rename_one(alias, path, node, report)
+                is_ignored = as_there and alias.is_unread and alias.new not in node
+                (_ignore_one if is_ignored else _rename_one)(alias, path, node, report)
     _flatten_field_lists(tree, report)
     _drop_automatic(tree)
     _drop_threshold(tree, report)
@@ -72,6 +73,12 @@ def rename(tree, report):
     _raise_material(tree, report)
     _take_material_id(tree, report)
     _name_entries(tree)
+
+
+def _ignore_one(alias, path, node, report):
+    del node[alias.old]
+    why = f'with "compatibility", since MPM-Geomechanics reads "{alias.new}" only'
+    report.note((*path, alias.old), f"ignored {why}")
 
 
 def _rename_one(alias, path, node, report):
@@ -83,7 +90,8 @@ def _rename_one(alias, path, node, report):
             del node[alias.old]
             return
     elif not alias.is_equal:
-        report.note(old_path, f'read as "{alias.new}"{alias.remark}')
+        remark = ", which MPM-Geomechanics does not read under this spelling"
+        report.note(old_path, f'read as "{alias.new}"{remark if alias.is_unread else ""}')
     node[alias.new] = node.pop(alias.old)
     report.written[new_path] = report.written.get(old_path, alias.old)
 

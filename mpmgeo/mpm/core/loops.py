@@ -17,6 +17,7 @@ from mpmgeo.numerics.chunks import CHUNKS, blockwise
 from mpmgeo.numerics.dispatch import generic
 from mpmgeo.numerics.jit import inlined
 from mpmgeo.numerics.simd import LANES
+from mpmgeo.state.grid import mesh_of
 from mpmgeo.state.layout import NODES, SIDE, axes, volume
 
 
@@ -90,13 +91,15 @@ def _fetch(nodes, b, row, tile):
 
 
 @blockwise
-def over_particles(c, work, shape, mesh, place, half, x, nodes, scratch, tiles, fresh, a):
+def over_particles(c, work, shape, frame, place, half, x, nodes, scratch, tiles, fresh, a):
     """Visit the particles of blocks; return how many left theirs.
 
-    `place`: bounds of the chunks of blocks, first particle and end of each, corners; `nodes`: the
-    records to read, and which blocks of them lie under each tile, or None; `scratch`: room for a
-    copy of them; `tiles`: those of one or more fields, emptied before if they are to be `fresh`.
+    `frame`: numbers of the mesh; `place`: bounds of the chunks of blocks, first particle and end of
+    each, corners; `nodes`: the records to read, and which blocks of them lie under each tile, or
+    None; `scratch`: room for a copy of them; `tiles`: those of one or more fields, emptied before
+    if they are to be `fresh`.
     """
+    mesh = mesh_of(frame)
     chunk, begin, end, corner = place
     row = rows(shape)
     size = volume(row) * LANES
@@ -133,12 +136,14 @@ def _sum_all(tiles, below, b, row, scratch, first):
 
 
 @blockwise
-def over_nodes(c, work, shape, mesh, place, tiles, scratch, a):
+def over_nodes(c, work, shape, frame, place, tiles, scratch, a):
     """Visit the nodes of blocks, the tiles over them summed before, in a fixed order.
 
-    `place`: bounds of the chunks of blocks, corners, the tiles over each block; `tiles`: those of
-    one or more fields, whose sums stand one after the other in the scratch memory, or None.
+    `frame`: numbers of the mesh; `place`: bounds of the chunks of blocks, corners, the tiles over
+    each block; `tiles`: those of one or more fields, whose sums stand one after the other in the
+    scratch memory, or None.
     """
+    mesh = mesh_of(frame)
     chunk, corner, below = place
     row = rows(shape)
     first = c * (len(scratch) // CHUNKS)

@@ -2,6 +2,7 @@
 
 from mpmgeo.boundaries.base_motion import STILL
 from mpmgeo.effect import Effect
+from mpmgeo.state.checked import truth_from, vector_from
 
 
 class Base(Effect):
@@ -43,6 +44,6 @@ class Base(Effect):
     def take(self, state):
         """Go on with what `held` once returned, with the planes that follow from it."""
         motion, planes = self.motion, self.planes
-        motion.velocity, motion.ended = tuple(state.pop("velocity")), state.pop("ended")
+        motion.velocity, motion.ended = vector_from(state, "velocity"), truth_from(state, "ended")
         self.solver.planes = motion.planes_after(planes) if motion.ended else planes
         self.solver.motion = STILL

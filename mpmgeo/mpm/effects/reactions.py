@@ -18,6 +18,7 @@ from mpmgeo.naming import PLANES
 from mpmgeo.numerics.dispatch import generic
 from mpmgeo.numerics.jit import inlined
 from mpmgeo.numerics.simd import LANES, lane, load
+from mpmgeo.state.checked import array_from
 from mpmgeo.state.layout import NODES
 
 
@@ -135,4 +136,6 @@ class Reactions(Effect):
 
     def take(self, state):
         """Go on with what `held` once returned."""
-        self.solver.reactions = state.pop("forces", None)
+        shape = (len(PLANES) + self.tools, 3)
+        given = "forces" in state
+        self.solver.reactions = array_from(state, "forces", np.float64, shape) if given else None

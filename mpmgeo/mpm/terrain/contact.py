@@ -5,15 +5,17 @@ import numpy as np
 from mpmgeo.boundaries.distance import distances
 from mpmgeo.effect import Effect
 from mpmgeo.mpm.core.loops import over_nodes, over_particles
-from mpmgeo.mpm.terrain.density import density_at, nodal_density
+from mpmgeo.mpm.terrain.density import NOTHING, nodal_density
 from mpmgeo.mpm.terrain.ground import NearGround
 from mpmgeo.mpm.terrain.press import Fastest, MoveOut, Part, Press, Push
-from mpmgeo.mpm.terrain.touch import Detect
-from mpmgeo.mpm.terrain.touch_legacy import Impel
+from mpmgeo.mpm.terrain.touch import COLUMNS, TOUCHING, Detect
+from mpmgeo.mpm.terrain.touch_legacy import LEVEL, Impel
 from mpmgeo.numerics.chunks import ALONE, CHUNKS
 from mpmgeo.numerics.triangle_tree import DEPTH, FACE
+from mpmgeo.state.checked import demand, number_from, vector_from
 
 LIGHT = 1e-6  # share of a particle's mass
+FARTHEST = 1e6  # cells by which a ground may move; beyond, blocks have no names
 CAUTION = 2.0  # for what contact does to the speeds, and for bends of the ground
 
 
@@ -25,6 +27,7 @@ class Contact(Effect):
     """
 
     name = "ground"
+    columns = COLUMNS  # of the particles' arrays of contact
 
     def __init__(self, symbols, surface, ground, mesh, width):
         self.symbols = symbols
@@ -93,7 +96,7 @@ class Contact(Effect):
         """Visit the particles of a set in the blocks near the ground."""
         s = self.sets[number]
         return over_particles(
-            *(solver.crew, work, solver.shape, solver.grid.mesh, self.places[number]),
+            *(solver.crew, work, solver.shape, solver.grid.frame, self.places[number]),
             *(s.half, s.x, nodes, solver.grid.scratch, (self.near.field.tiles,), False, arrays),
         )
 
@@ -103,13 +106,15 @@ class Contact(Effect):
         tiles = (near.field.tiles,) if is_sum else None
         place = near.nodes_chunk, near.nodes_corner, near.below
         over_nodes(
-            *(solver.crew, work, solver.shape, solver.grid.mesh, place),
+            *(solver.crew, work, solver.shape, solver.grid.frame, place),
             *(tiles, solver.grid.scratch, arrays),
         )
 
     def follow(self, motion, dt):
-        """Let the ground move for a step of the base."""
-        self.offset = tuple(u + dt * v for u, v in zip(self.offset, motion.after, strict=True))
+        """Let the ground move for a step of the base, as far as blocks have names."""
+        far = [FARTHEST * h for h in self.near.cell]
+        moved = (u + dt * v for u, v in zip(self.offset, motion.after, strict=True))
+        self.offset = tuple(max(-f, min(f, u)) for f, u in zip(far, moved, strict=True))
 
     def distance(self, x):
         """Return the signed distances (n,) [m] of points (n, 3) [m] to the ground as it lies.
@@ -120,13 +125,21 @@ class Contact(Effect):
         distances(ALONE, self.ground, np.ascontiguousarray(x) - self.offset, out)
         return out
 
+    def level(self, s, at):
+        """Return the signed distances (n,) [m] of the particles `at` of a set, as files have it."""
+        return self.distance(s.x[at])
+
     def density(self, solver):
-        """Return the share (blocks, 64) of the nodes' volume that particles fill."""
-        return nodal_density(solver)
+        """Return node indices (n, 3), and the share (n,) of their volume that particles fill."""
+        density = self._filled(solver)
+        return density.indices().reshape(-1, 3), density.values.ravel()
 
     def density_at(self, solver, x):
         """Return that share (n,) at points (n, 3) [m] in coordinates of the mesh."""
-        return density_at(solver, x)
+        return self._filled(solver).at(solver.grid.mesh, x)
+
+    def _filled(self, solver):
+        return nodal_density(solver)
 
     def triangles(self):
         """Return centres (n, 3) [m] and normals (n, 3) of the triangles as they lie.
@@ -161,14 +174,26 @@ class Contact(Effect):
 
     def take(self, state):
         """Go on with what `held` once returned."""
-        self.offset, self.way = tuple(state.pop("offset")), state.pop("way")
+        offset, self.way = vector_from(state, "offset"), number_from(state, "way", least=0.0)
+        far = max(abs(u) / h for u, h in zip(offset, self.near.cell, strict=True))
+        demand(far <= FARTHEST, f"offset moves the ground by {far:.3g} cells")
+        self.offset = offset
 
 
 class ContactAsMPMGeomechanics(Contact):
-    """Contact at a distance, on particles alone, with a ground that stays where it is."""
+    """Contact at a distance, on particles alone, with a ground that stays where it is.
+
+    `keeps_density`: whether files want the density, which is that at the beginning of a step.
+    """
+
+    columns = LEVEL + 1
+    keeps_density = False
+    _density = None
 
     def after_nodes(self, solver, h):
         """Change the velocities of particles that approach the ground."""
+        if self.keeps_density:
+            self._density = nodal_density(solver)
         self._arrange(solver)
         near, grid = self.near, solver.grid
         near.touched[:] = 1
@@ -183,3 +208,21 @@ class ContactAsMPMGeomechanics(Contact):
 
     def follow(self, motion, dt):
         """Do nothing: only the velocity of the ground counts."""
+
+    def level(self, s, at):
+        """Return the distances (n,) [m] that particles near the ground gathered in the last step.
+
+        Those below it have 0, since they have been put onto it; of the others it is the distance.
+        """
+        return np.where(s.due[at] == TOUCHING, s.contact[at, LEVEL], self.distance(s.x[at]))
+
+    def _filled(self, solver):
+        """Return the density of the last step, none before the first one."""
+        if solver.steps == 0:
+            return NOTHING
+        return nodal_density(solver) if self._density is None else self._density
+
+    def take(self, state):
+        """Go on with what `held` once returned; the density of its last step is not known."""
+        super().take(state)
+        self._density = None

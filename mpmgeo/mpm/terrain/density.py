@@ -8,8 +8,39 @@ from mpmgeo.mpm.core.loops import at_node, visit
 from mpmgeo.mpm.core.tile import deposit_value, locate
 from mpmgeo.mpm.task import Task
 from mpmgeo.numerics.simd import lane, load, pack
-from mpmgeo.state.grid import keys_of
+from mpmgeo.state.grid import corners_of, keys_of, nodes_of
 from mpmgeo.state.layout import NODES, SIDE, inner
+
+
+class Density(NamedTuple):
+    """The density (blocks, 64) [-] at the nodes of the blocks of `keys`, ascending; zero beyond."""
+
+    keys: np.ndarray
+    values: np.ndarray
+
+    def indices(self):
+        """Return the node indices (blocks, 64, 3)."""
+        return nodes_of(corners_of(self.keys))
+
+    def at(self, mesh, x):
+        """Return the density (n,) [-] at points x (n, 3) [m] in the mesh, linear between nodes."""
+        density = np.append(self.values.ravel(), 0.0)
+        g = x * [mesh.ix, mesh.iy, mesh.iz]
+        g = np.clip(g, -4.0, np.array([mesh.nx, mesh.ny, mesh.nz]) + 4.0)
+        first = np.floor(g).astype(np.int64)
+        value = np.zeros(len(x))
+        for corner in np.ndindex(2, 2, 2):
+            node = first + corner
+            weight = np.where(corner, g - first, 1.0 - (g - first)).prod(axis=1)
+            keys = keys_of(node // SIDE)
+            block = np.minimum(np.searchsorted(self.keys, keys), max(len(self.keys) - 1, 0))
+            at = block * NODES + inner(*(node % SIDE).T)
+            known = self.keys[block] == keys if len(self.keys) else np.zeros(len(x), bool)
+            value += weight * density[np.where(known, at, -1)]
+        return value
+
+
+NOTHING = Density(np.empty(0, np.int64), np.empty((0, NODES)))
 
 
 class AddVolume(NamedTuple):
@@ -33,8 +64,8 @@ def volume(work, node, a):
     a[0][node.number] = lane(load(node.sums, node.at), 0)
 
 
-def nodal_density(solver):
-    """Return the density (blocks, 64) [-] at the nodes of the grid's active blocks."""
+def nodal_density(solver) -> Density:
+    """Return the density at the nodes, of the particles where they are."""
     solver.arrange()
     grid, mesh = solver.grid, solver.grid.mesh
     out = np.zeros(len(grid.active) * NODES)
@@ -43,23 +74,4 @@ def nodal_density(solver):
         # the tiles keep nothing from one step to the next
         solver.over_particles(AddVolume(), s, (volumes,), (grid.tiles,), fresh=number == 0)
     solver.over_nodes(Task(Volume(), (grid.tiles,), grid.scratch, (out,)))
-    return out.reshape(-1, NODES) / (mesh.hx * mesh.hy * mesh.hz)
-
-
-def density_at(solver, x):
-    """Return the density (n,) [-] at points x (n, 3) [m] in the mesh, linear between the nodes."""
-    grid, mesh = solver.grid, solver.grid.mesh
-    density = np.append(nodal_density(solver).ravel(), 0.0)
-    g = x * [mesh.ix, mesh.iy, mesh.iz]
-    g = np.clip(g, -4.0, np.array([mesh.nx, mesh.ny, mesh.nz]) + 4.0)
-    first = np.floor(g).astype(np.int64)
-    value = np.zeros(len(x))
-    for corner in np.ndindex(2, 2, 2):
-        node = first + corner
-        weight = np.where(corner, g - first, 1.0 - (g - first)).prod(axis=1)
-        keys = keys_of(node // SIDE)
-        block = np.minimum(np.searchsorted(grid.active, keys), max(len(grid.active) - 1, 0))
-        at = block * NODES + inner(*(node % SIDE).T)
-        known = grid.active[block] == keys if len(grid.active) else np.zeros(len(x), bool)
-        value += weight * density[np.where(known, at, -1)]
-    return value
+    return Density(grid.active, out.reshape(-1, NODES) / (mesh.hx * mesh.hy * mesh.hz))

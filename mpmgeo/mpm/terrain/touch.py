@@ -27,6 +27,7 @@ from mpmgeo.numerics.simd import LANES, lane, load_row, pack, pack4
 from mpmgeo.state.layout import SIDE, place, volume
 
 NORMAL, TANGENT, PUSH = 0, 3, 6  # columns of a particle's contact: two forces, one displacement
+COLUMNS = 9
 TOUCHING = -1.0  # what stands for the way of a particle in contact
 EVEN = 0.1  # |∇d| below which opposite surfaces are so near that there is no normal
 

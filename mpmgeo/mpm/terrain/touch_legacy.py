@@ -5,16 +5,20 @@ triangle, and on their velocities alone: nodes, and with them positions, do not 
 
     f_n = −m v_n/Δt n  if v_n < 0,   |f_t| ≤ μ |f_n|,   then f_n += k (−d) n  if d < 0
 
-d: gathered distance. At the end particles whose middle was below the surface move by −d n.
+d: gathered distance. At the end particles whose middle was below the surface move by −d n, and d
+counts as zero.
 """
 
 from typing import NamedTuple
 
+from mpmgeo.boundaries.distance import nearest_of
 from mpmgeo.mpm.core.loops import visit
 from mpmgeo.mpm.core.tile import collect_value
 from mpmgeo.mpm.terrain.touch import NORMAL, PUSH, TANGENT, TOUCHING, distance_of, locate_both, put
 from mpmgeo.numerics.simd import lane
-from mpmgeo.numerics.triangle_tree import FACE, closest, nearest
+from mpmgeo.numerics.triangle_tree import FACE, closest
+
+LEVEL = 9  # column of the distance, behind those of `touch`
 
 
 class Impel(NamedTuple):
@@ -42,13 +46,14 @@ def impel(work, here, a, p):
     if not abs(d) < contact.D:
         return 0
     c = here.c
-    t = nearest(ground, x[p, 0], x[p, 1], x[p, 2], last[c], waiting[c])
+    t = nearest_of(ground, x[p, 0], x[p, 1], x[p, 2], last[c], waiting[c])
     last[c] = t
     qx, qy, qz, _ = closest(ground.corner, t, x[p, 0], x[p, 1], x[p, 2])
     qx, qy, qz = qx - x[p, 0], qy - x[p, 1], qz - x[p, 2]
     if not qx * qx + qy * qy + qz * qz < contact.D**2:
         return 0
     due[p] = TOUCHING
+    forces[p, LEVEL] = max(d, 0.0)
     u = collect_value(here.source, at, here.rows, wx, wy, wz)
     ux = v[p, 0] + h * lane(u, 3) - motion[0]
     uy = v[p, 1] + h * lane(u, 4) - motion[1]

@@ -35,8 +35,8 @@ def applied_in_turn(kinds, node, upper_wins, on_base):
             v[:] = 0
         elif kind == SLIDING:
             v[side % 3] = 0
-        elif kind == BASE:
-            v = np.array(PUSH) if on_base else np.array(VECTOR)
+        elif kind == BASE and on_base:
+            v = np.array(PUSH)
     return v
 
 

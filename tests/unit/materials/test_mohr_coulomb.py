@@ -286,6 +286,18 @@ def test_old_tension():
         assert symbols._asdict()["T"] == pytest.approx(expected)
 
 
+def test_distinct_stresses_get_no_shear_in_the_old_return():
+    """Equal ones are told apart by a small one: which of the two flows, no axis says."""
+    flowing = Element(SOIL, [-1e5, -2.5e5, -9e5, 0, 0, 0], as_mpm_geomechanics=True)
+    flowing.drive([1e-5, 0, -1e-5, 0, 0, 0])
+    assert flowing.state[0] > 0
+    assert not flowing.stress[3:].any()
+    level = Element(SOIL, [-1e5, -1e5, -9e5, 0, 0, 0], as_mpm_geomechanics=True)
+    level.drive([0, 0, -1e-5, 0, 0, 0])
+    assert level.state[0] > 0
+    assert level.stress[3:].any()
+
+
 def test_both_returns_agree_on_planes():
     """Where the principal stresses stay apart the old return is the new one."""
     law = replace(SOIL, tensile=5e3)

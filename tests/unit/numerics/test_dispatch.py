@@ -1,5 +1,6 @@
 """One name, many implementations, chosen by type in Python and in compiled code."""
 
+import pickle
 from typing import NamedTuple
 
 import numba
@@ -50,6 +51,38 @@ def test_python_chooses_by_type(area):
     assert area(Circle(2.0), 10.0) == 120.0
     assert area(Square(2.0), 10.0) == 40.0
     assert area(Disc(2.0), 10.0) == 120.0
+
+
+class Squares:
+    """Where another class has the name of one above."""
+
+    class Square(NamedTuple):
+        α: float
+
+
+class Cubes:
+    """Where yet another has it; without its Greek letters it is the same to numba."""
+
+    class Square(NamedTuple):
+        β: float
+
+
+def test_classes_of_the_same_name_are_different_types(area):
+    @area.register(Squares.Square)
+    def many(model, factor):
+        return 100.0 * model.α * factor
+
+    @area.register(Cubes.Square)
+    def cubes(model, factor):
+        return model.β * factor
+
+    @njit
+    def of_all(models):
+        return area(models[0], 10.0)
+
+    assert of_all((Squares.Square(2.0),)) == 2000.0
+    assert of_all((Cubes.Square(2.0),)) == 20.0
+    assert pickle.loads(pickle.dumps(Cubes.Square(2.0))) == Cubes.Square(2.0)
 
 
 def test_compiled_code_chooses_by_type(area):

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import mpmgeo
-from mpmgeo.numerics import jit
+from mpmgeo.numerics import cache, jit
 from mpmgeo.numerics.chunks import ALONE, CHUNKS, crew_of
 
 PACKAGE = Path(mpmgeo.__file__).parent
@@ -94,7 +94,7 @@ def test_unwritable_home_falls_back(copy, monkeypatch, tmp_path):
     blocked = tmp_path / "file"
     blocked.write_text("")
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(blocked))
-    monkeypatch.setattr(jit.tempfile, "tempdir", str(tmp_path / "elsewhere"))
+    monkeypatch.setattr(cache.tempfile, "tempdir", str(tmp_path / "elsewhere"))
     assert folder().is_relative_to(tmp_path / "elsewhere")
 
 

@@ -3,7 +3,15 @@
 import numpy as np
 import pytest
 
-from mpmgeo.numerics.triangle_tree import DEPTH, FACE, LEAF, build, closest, nearest
+from mpmgeo.numerics.triangle_tree import (
+    DEPTH,
+    FACE,
+    LEAF,
+    build,
+    closest,
+    first_of_nearest,
+    nearest,
+)
 
 
 def distance(corner, t, x):
@@ -59,6 +67,27 @@ def test_of_several_nearest_triangles_the_first_one_counts():
         for guess in (0, 1):
             found = nearest(tree, 0.0, 0.5, 1.0, guess, np.empty(DEPTH, np.int64))
             assert tree.number[found] == 0
+
+
+def test_above_an_edge_the_first_one_counts_where_round_off_decides():
+    """The edge of a ridge, seen from both sides in skew coordinates; the third one is farther."""
+    random = np.random.default_rng(3)
+    waiting, decided = np.empty(DEPTH, np.int64), 0
+    for _ in range(200):
+        a, b = random.uniform(-1, 1, (2, 3))
+        along = (b - a) / np.linalg.norm(b - a)
+        up = np.cross(along, random.uniform(-1, 1, 3))
+        side = np.cross(along, up)
+        left, right = (a + q * side - up for q in (-1, 1))
+        x = a + random.uniform(0.2, 0.8) * (b - a) + 0.3 * up
+        far = np.array([a, left, b]) - 0.1 * up
+        tree = build(np.array([far, [a, b, left], [right, b, a]]))
+        order = list(tree.number)
+        for guess in range(3):
+            t = nearest(tree, *x, guess, waiting)
+            decided += order[t] == 2
+            assert order[first_of_nearest(tree, *x, t, waiting)] == 1
+    assert decided > 0
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from assembly import two_blocks
 
 import mpmgeo
 
@@ -41,3 +42,39 @@ def test_plastic_strain_and_undrained_strength(keys):
     expected = 0.2 * np.maximum(-simulation.field("stress")[:, 2], 0.0)
     assert strength[clay] == pytest.approx(expected[clay], rel=1e-12)
     assert strength[3] == 0.0 and not strength[~clay].any()
+
+
+def test_the_variables_of_a_law_are_fields():
+    """By the names in its `STATE`, zero for other particles; unknown where no law has it."""
+    case = two_blocks()
+    water = {"type": "newtonian", "viscosity": 1.0, "bulk": 1e6, "density": 1000.0, "tensile": 0.0}
+    case["materials"][0] = water | {"id": 4}
+    simulation = mpmgeo.Simulation(case)
+    (wet,) = [s for s in simulation.solver.sets if s.law.STATE == ("void",)]
+    wet.state[:, 0] = np.arange(32)
+    void = simulation.field("void")
+    assert void.shape == (96,) and not void[:64].any()
+    assert (void[wet.row] == np.arange(32)).all()
+    with pytest.raises(KeyError, match="'void' is no field"):
+        mpmgeo.Simulation(two_blocks()).field("void")
+
+
+@pytest.mark.parametrize(
+    ("wrong", "right"),
+    [
+        ("displacment", "displacement"),
+        ("Velocity", "velocity"),
+        ("plasticstrain", "plastic_strain"),
+        ("von_mises", "von_mises_stress"),
+        ("positions", "position"),
+    ],
+)
+def test_a_wrong_name_names_the_nearest_field(wrong, right):
+    with pytest.raises(KeyError, match=f"'{wrong}' is no field; did you mean '{right}'"):
+        mpmgeo.Simulation(two_blocks()).field(wrong)
+
+
+@pytest.mark.parametrize("wrong", ["qqqq", 3, None, ("velocity",)])
+def test_what_is_like_no_field_names_all(wrong):
+    with pytest.raises(KeyError, match=r"is no field; there are id, material, .*stress.*position"):
+        mpmgeo.Simulation(two_blocks()).field(wrong)

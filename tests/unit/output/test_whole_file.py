@@ -1,6 +1,9 @@
+import os
+from pathlib import Path
+
 import pytest
 
-from mpmgeo.output.whole_file import whole_file
+from mpmgeo.output.whole_file import append, whole_file
 
 
 def names(folder):
@@ -41,3 +44,43 @@ def test_a_name_taken_by_a_folder_is_an_error_and_leaves_nothing_behind(tmp_path
     with pytest.raises(OSError), whole_file(tmp_path / "a.vtu") as file:
         file.write(b"new")
     assert names(tmp_path) == ["a.vtu"]
+
+
+def test_a_link_beside_is_not_followed(tmp_path):
+    outside = tmp_path / "outside"
+    outside.write_bytes(b"mine")
+    folder = tmp_path / "results"
+    folder.mkdir()
+    (folder / "a.bin.part").symlink_to(outside)
+    with whole_file(folder / "a.bin") as file:
+        file.write(b"new")
+    assert outside.read_bytes() == b"mine"
+    assert names(folder) == ["a.bin"] and (folder / "a.bin").read_bytes() == b"new"
+
+
+def test_a_link_in_place_of_a_growing_file_is_not_followed(tmp_path):
+    outside = tmp_path / "outside"
+    outside.write_bytes(b"mine")
+    append(tmp_path / "a.csv", "1\n")
+    append(tmp_path / "a.csv", "2\n")
+    assert (tmp_path / "a.csv").read_bytes() == b"1\n2\n"
+    (tmp_path / "a.csv").unlink()
+    (tmp_path / "a.csv").symlink_to(outside)
+    with pytest.raises(OSError):
+        append(tmp_path / "a.csv", "3\n")
+    assert outside.read_bytes() == b"mine"
+
+
+def test_a_full_disk_names_the_file(tmp_path):
+    with pytest.raises(OSError) as error, whole_file(tmp_path / "a.bin"):
+        raise OSError(28, "No space left on device")
+    assert error.value.filename == str(tmp_path / "a.bin")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="a device that is always full")
+def test_a_full_disk_names_a_growing_file(tmp_path, monkeypatch):
+    monkeypatch.setattr(os, "O_NOFOLLOW", 0)
+    (tmp_path / "a.csv").symlink_to("/dev/full")
+    with pytest.raises(OSError) as error:
+        append(tmp_path / "a.csv", "1\n")
+    assert error.value.filename == str(tmp_path / "a.csv")

@@ -5,7 +5,9 @@ import signal
 
 import pytest
 
+import mpmgeo
 from mpmgeo.run.loop import run
+from mpmgeo.run.watch import StopRun
 
 
 class Stepper:
@@ -107,3 +109,60 @@ def test_an_interrupt_ends_the_run_after_its_step(log, number):
     assert simulation.interrupted is True and simulation.time == 2.0
     assert log[-3:] == ["b after", "a end", "b end"]
     assert first.error is None
+
+
+def test_the_base_class_does_nothing(log):
+    """It has every method that is told something, and can be subclassed for one of them."""
+
+    class Counting(mpmgeo.Watcher):
+        count = 0
+
+        def after_step(self, simulation):
+            self.count += 1
+
+    watcher = Counting()
+    run(Stepper(log), 3.0, [watcher, mpmgeo.Watcher()])
+    assert watcher.count == 3
+
+
+@pytest.mark.parametrize("method", ["begin", "after_step", "end"])
+def test_methods_may_be_left_out(log, method):
+    """By an object of any class."""
+    told = []
+    watcher = type("Short", (), {method: lambda *arguments: told.append(len(arguments))})()
+    run(Stepper(log), 2.0, [watcher])
+    assert told == {"begin": [2], "after_step": [2, 2], "end": [3]}[method]
+
+
+def stopping(log, call):
+    class Stopping(Watcher):
+        def _told(self, now):
+            super()._told(now)
+            if now == call and log.count(f"{self.name} {call}") == 2 - (call == "begin"):
+                raise StopRun("enough")
+
+    return Stopping("a", log)
+
+
+def test_a_watcher_stops_the_run(log):
+    """After the step that it is told of, which the others are told of as well; it is no error."""
+    simulation, second = Stepper(log), Watcher("b", log)
+    run(simulation, 100.0, [stopping(log, "after"), second])
+    assert simulation.time == 2.0
+    assert log[-5:] == ["step", "a after", "b after", "a end", "b end"]
+    assert second.error is None
+    assert simulation.stopped == "enough" and simulation.interrupted is False
+
+
+def test_a_watcher_stops_the_run_before_it_begins(log):
+    simulation = Stepper(log)
+    run(simulation, 100.0, [stopping(log, "begin"), Watcher("b", log)])
+    assert log == ["a begin", "b begin", "a end", "b end"]
+    assert simulation.stopped == "enough"
+
+
+def test_the_reason_of_an_earlier_stop_is_forgotten(log):
+    simulation = Stepper(log)
+    run(simulation, 100.0, [stopping(log, "after")])
+    run(simulation, 5.0, [])
+    assert simulation.time == 5.0 and simulation.stopped is None

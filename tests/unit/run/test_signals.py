@@ -7,6 +7,7 @@ import pytest
 
 from mpmgeo.run.interrupt import Interrupt
 
+HANGUP = pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="signals of POSIX")
 BOTH = pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 
 
@@ -61,6 +62,37 @@ def test_ctrl_c_twice_is_a_keyboard_interrupt():
             signal.raise_signal(signal.SIGINT)
     finally:
         signal.signal(signal.SIGINT, before)
+
+
+@HANGUP
+def test_a_hangup_asks_and_those_after_it_are_ignored(handlers):
+    """A shell sends one to its jobs, the system another."""
+    number = signal.SIGHUP
+    before = signal.signal(number, lambda number, _: handlers.append(number))
+    try:
+        with Interrupt() as interrupt:
+            signal.raise_signal(number)
+            assert interrupt.asked
+            signal.raise_signal(number)
+            assert not handlers
+            signal.raise_signal(signal.SIGTERM)
+        signal.raise_signal(number)
+    finally:
+        signal.signal(number, before)
+    assert handlers == [signal.SIGTERM, number]
+
+
+@HANGUP
+def test_a_hangup_that_is_ignored_stays_so():
+    """As nohup asks for."""
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        with Interrupt() as interrupt:
+            signal.raise_signal(signal.SIGHUP)
+        assert not interrupt.asked
+        assert signal.getsignal(signal.SIGHUP) == signal.SIG_IGN
+    finally:
+        signal.signal(signal.SIGHUP, before)
 
 
 def test_runs_outside_the_main_thread_leave_signals_alone():

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mpmgeo.state.snapshot import Snapshot, read_snapshot, write_snapshot
+from mpmgeo.state.snapshot import Snapshot, StoredSnapshot, write_snapshot
 
 ARRAYS = {
     "set0.x": np.random.default_rng(1).normal(size=(100, 3)),
@@ -22,7 +22,10 @@ def written(path):
 
 
 def test_arrays_and_facts_come_back(tmp_path):
-    arrays, facts = read_snapshot(written(tmp_path / "s.npz"))
+    stored = StoredSnapshot(written(tmp_path / "s.npz"))
+    arrays = {name: entry.read() for name, entry in stored.entries(most=0).items()}
+    stored.verify()
+    facts = stored.facts
     assert arrays.keys() == ARRAYS.keys()
     for name, array in ARRAYS.items():
         assert arrays[name].dtype == array.dtype

@@ -44,6 +44,25 @@ def test_bodies_must_not_need_more_particles_than_fit(case):
     assert problem.startswith("body.block: the body needs about 6.4e+19 particle positions")
 
 
+@pytest.mark.parametrize("shape", ["GIMP", "linear"])
+@pytest.mark.parametrize("scheme", ["USL", "MUSL", "USF"])
+@pytest.mark.parametrize("time_step", [1e-9, None])
+def test_usl_with_linear_is_warned_of_whatever_the_step(case, shape, scheme, time_step):
+    keys = {"shape_function": shape, "stress_scheme_update": scheme, "time_step": time_step}
+    warnings = load_case(case | keys).warnings
+    if (shape, scheme) == ("linear", "USL"):
+        (warning,) = warnings
+        assert warning.startswith('shape_function: "linear" with the scheme USL diverges in plain')
+        assert '"stress_scheme_update": "MUSL" mends it' in warning
+    else:
+        assert warnings == ()
+
+
+def test_usl_need_not_be_written_to_be_warned_of(case):
+    (warning,) = load_case(case | {"shape_function": "linear"}).warnings
+    assert "USL" in warning
+
+
 def test_inactive_bodies_may_be_large(case):
     case["body"]["idle"] = case["body"]["block"] | {"active": False, "point_p2": [1e9, 1e9, 1e9]}
     assert len(load_case(case).body) == 2

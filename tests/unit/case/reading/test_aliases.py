@@ -130,3 +130,24 @@ def test_keys_of_two_phases_are_ignored(case):
     }
     case["body"]["block"]["id"] = "any"
     assert load_case(case, strict=True).warnings == ()
+
+
+UNREAD = [alias for alias in ALIASES if alias.is_unread]
+
+
+@pytest.mark.parametrize("alias", UNREAD, ids=lambda alias: alias.old)
+def test_spellings_that_mpm_geomechanics_does_not_read_are_ignored_with_the_switch(case, alias):
+    case["compatibility"] = "mpm-geomechanics"
+    plain = load_case(case)
+    put(case, alias.place, alias.old, VALUES[alias.new])
+    loaded = load_case(case)
+    assert loaded == plain
+    assert loaded.warnings == ()
+    where = ".".join((*alias.place, alias.old))
+    reads = f'since MPM-Geomechanics reads "{alias.new}" only'
+    assert loaded.notes == (f'{where}: ignored with "compatibility", {reads}',)
+
+
+def test_spellings_that_mpm_geomechanics_reads_count_with_the_switch(case):
+    case |= {"compatibility": "mpm-geomechanics", "damping": {"type": "local", "alpha": 0.3}}
+    assert load_case(case).damping.value == 0.3
