@@ -22,6 +22,7 @@ def parameter(
     place=False,
     key=None,
     several=False,
+    names=None,
 ):
     """Return the dataclass field of one JSON key.
 
@@ -29,7 +30,8 @@ def parameter(
     `maximum` closed ones, and bound every component of a vector; `choices` lists the accepted
     words; `file` marks the name of a file, resolved against the case's folder; `place` marks a
     position, or several, in the user's coordinates; `key` is the JSON key where it is not the name
-    of the field; `several`: a list of objects is accepted in the place of one. Without a `default`
+    of the field; `several`: a list of objects is accepted in the place of one; `names`: the key of
+    the entries of the case whose names are accepted in the place of a number. Without a `default`
     the key is required.
     """
     bounds = {"above": above, "minimum": minimum, "below": below, "maximum": maximum}
@@ -42,6 +44,7 @@ def parameter(
         "place": place,
         "key": key,
         "several": several,
+        "names": names,
     }
     return field(default=default, metadata=metadata, kw_only=True)
 

@@ -18,9 +18,8 @@ def turned(low, high) -> Iterator[tuple[str, str]]:
 
 
 def bounds(low, high, zero=NOWHERE) -> tuple[np.ndarray, np.ndarray]:
-    """Return the corners (3,) [m] of a closed box, widened by what doubles do not resolve."""
-    slack = resolution(zero, low, high)
-    return low - slack, high + slack
+    """Return the corners (3,) [m] of a closed box, widened by what doubles do not resolve there."""
+    return low - resolution(zero, low), high + resolution(zero, high)
 
 
 def within(low, high, position: np.ndarray, zero=NOWHERE) -> np.ndarray:

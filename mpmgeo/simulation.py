@@ -21,10 +21,12 @@ from mpmgeo.numerics.jit import remarks
 from mpmgeo.output.claim import claimed
 from mpmgeo.output.final_stress import FinalStress
 from mpmgeo.output.histories import Histories, histories_of
+from mpmgeo.output.leftovers import Leftovers
 from mpmgeo.output.nodes import nodes_of
 from mpmgeo.output.particle_fields import particle_field, particle_field_names
-from mpmgeo.run.diagnosis import diagnose
+from mpmgeo.run.diagnosis import diagnose, last_stress
 from mpmgeo.run.loop import run
+from mpmgeo.run.losses import Losses
 from mpmgeo.run.snapshots import Snapshots
 from mpmgeo.run.watch import Diverged, Guard
 
@@ -130,13 +132,12 @@ class Simulation:
         cannot be written, or if another run writes into the output folder.
         """
         every = self.output_interval
-        watchers = [Guard(every), *self._files(every), *watchers]
+        watchers = [Guard(every), *self._files(every), Losses(), *watchers]
         try:
             with claimed(self.output, self.case.title):
                 run(self, self.case.time if until is None else until, watchers)
         finally:
             self.goes_on = True
-            self._report_departures()
         return self
 
     def _files(self, every):
@@ -151,7 +152,7 @@ class Simulation:
             files.append(FinalStress(self.output))
         if self.case.snapshot is not None:
             files.append(Snapshots(self.output, self.case.snapshot, self._histories))
-        return files
+        return [Leftovers(self.output, self._histories), *files]
 
     def step(self, steps=1):
         """Advance by some steps; returns the simulation."""
@@ -180,12 +181,6 @@ class Simulation:
         self._told.add(topic)
         return new
 
-    def _report_departures(self):
-        count = sum(len(d.rows) for d in self.solver.departures)
-        if count:
-            last = self.solver.departures[-1].time
-            self.say(f"{count} particles left the mesh, the last of them after {last:.6g} s")
-
     def arrange(self):
         """Bring the particles in the order that looking for them by place needs."""
         self._guarded(self.solver.arrange)
@@ -199,14 +194,7 @@ class Simulation:
             action()
         except Unsound as error:
             error.position = error.position + self.solver.population.zero
-            raise Diverged(diagnose(self, error, self._last_stress(error.row))) from error
-
-    def _last_stress(self, row):
-        """Return the stress (6,) [Pa] in the state kept last of the particle in a row, or None."""
-        for number in range(len(self.solver.sets)) if self._kept else ():
-            if (found := self._kept[f"set{number}.row"] == row).any():
-                return self._kept[f"set{number}.stress"][found][0]
-        return None
+            raise Diverged(diagnose(self, error, last_stress(self._kept, error.row))) from error
 
     def keep(self):
         """Keep a copy of the state."""

@@ -5,6 +5,9 @@ import json
 LARGEST = 1e100
 """Number beyond which products of three overflow, and which no quantity in SI units reaches."""
 
+USABLE = 1e60
+"""Magnitude, or its inverse, beyond which products of five quantities overflow or vanish."""
+
 LONGEST = 60
 """Characters of a value or key that a message shows."""
 
@@ -12,6 +15,11 @@ LONGEST = 60
 def is_number(value) -> bool:
     """Tell whether a JSON value is a number that can be calculated with."""
     return type(value) in (int, float) and abs(value) <= LARGEST
+
+
+def is_usable(value: float) -> bool:
+    """Tell whether products and quotients of a few such quantities stay positive and finite."""
+    return 1 / USABLE <= value <= USABLE
 
 
 def shown(value) -> str:

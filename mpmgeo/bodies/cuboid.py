@@ -35,6 +35,10 @@ class Cuboid(Filled):
         per_cell = self.particles_per_direction
         return Lattice.over(self.point_p1, extent, cell, per_cell, self.zero)
 
+    def holds(self, position: np.ndarray, cell: np.ndarray) -> np.ndarray:
+        """Tell which of the positions (n, 3) [m] lie in the box of whole cells."""
+        return self.lattice(cell).covers(position)
+
     def generate(self, cell: np.ndarray) -> Cloud:
         """Return the particles of all cells, which are never clipped; `cell` (3,) is in m."""
         lattice = self.lattice(cell)

@@ -23,7 +23,9 @@ class Gmsh(Body, Placed):
 
     mesh_file: Path = parameter("Mesh of Gmsh, version 2.2 or 4.1, text or binary", file=True)
     physical_to_material: dict[str, int] = parameter(
-        "Name of a physical group of volumes → number of its material; 0 or less: left out"
+        "Name of a physical group of volumes, or its number in quotes if it has no name → number "
+        "of its material; 0 or less: left out",
+        names="materials",
     )
     particle_distribution: str = parameter(
         "Where the particles of an element are: one in its middle, one at each Gauss point, or as "
@@ -86,6 +88,9 @@ class Gmsh(Body, Placed):
             )
             return
         known = ", ".join(f'"{name}"' for name in mesh.groups)
+        if not mesh.has_names and not set(self._groups) <= set(mesh.groups):
+            text = f"{mesh.path} has no physical group of volumes with a name, but with a number"
+            yield ("mesh_file",), f"{text} alone, which can be used as its name: {known}"
         for name in self._groups:
             if name in mesh.other_groups:
                 text = f"a group of the mesh, but not of volumes; those are {known}"
@@ -96,6 +101,15 @@ class Gmsh(Body, Placed):
             else:
                 continue
             yield ("physical_to_material", name), text
+
+    def demand(self, cell: np.ndarray) -> tuple[float, float]:
+        """Return how many particles fill the elements with per_cell, twice."""
+        if self.particle_distribution != "per_cell":
+            return 0.0, 0.0
+        pieces = [piece for volume in self._volumes.values() for piece in volume.pieces]
+        spacing = cell / self.particles_per_direction
+        number = sum(float(piece.volume.sum()) for piece in pieces) / float(spacing.prod())
+        return number, number
 
     def clouds(self, cell: np.ndarray) -> tuple[Cloud, ...]:
         """Return the particles of each group; raises ValueError if the file is wrong."""

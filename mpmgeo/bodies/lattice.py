@@ -57,6 +57,11 @@ class Lattice:
         """Edge lengths of a particle (3,) [m]."""
         return self.cell / self.per_cell
 
+    def covers(self, position: np.ndarray) -> np.ndarray:
+        """Tell which of the positions (n, 3) [m] lie in its cells, not only at their border."""
+        low, high = self.start + self.slack, self.start + self.cell * self.cells - self.slack
+        return ((position > low) & (position < high)).all(axis=1)
+
     def coordinates(self) -> tuple[np.ndarray, ...]:
         """Return x, y, z of all positions [m] with shapes (X,1,1), (1,Y,1), (1,1,Z)."""
         axes = zip(self.start, self.cell, self.cells, self.per_cell, strict=True)

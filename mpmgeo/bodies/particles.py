@@ -59,7 +59,9 @@ class Particles(Body):
 
     particles: Listing = parameter("The particles")
     material_id: int | None = parameter(
-        "Number of the material of all particles, in place of their own", default=None
+        "Number of the material of all particles, in place of their own",
+        names="materials",
+        default=None,
     )
 
     def problems(self) -> Iterator[tuple[str, str]]:

@@ -24,7 +24,9 @@ class ParticlesFromFile(Body, Placed):
 
     file: Path = parameter("The file", file=True)
     material_id: int | None = parameter(
-        "Number of the material of all particles, in place of their own", default=None
+        "Number of the material of all particles, in place of their own",
+        names="materials",
+        default=None,
     )
 
     @cached_property

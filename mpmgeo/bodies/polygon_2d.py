@@ -9,6 +9,7 @@ import numpy as np
 from mpmgeo.bodies.body import Filled
 from mpmgeo.bodies.cloud import Cloud
 from mpmgeo.bodies.lattice import ROUND_OFF, Lattice
+from mpmgeo.bodies.outline import crossing
 from mpmgeo.parameters import Vector, parameter
 from mpmgeo.positions import mean_edge, resolution
 
@@ -40,6 +41,25 @@ class Polygon2D(Filled):
         elif self._is_flat():
             yield "points", f"enclose no area in the plane across {self.extrude_direction}"
 
+    def remarks(self) -> Iterator[tuple[str, str]]:
+        """Yield (key, message) if the outline crosses itself."""
+        edges = crossing(self._corners)
+        if edges is not None:
+            one, other = (
+                f"from points[{n}] to points[{(n + 1) % len(self.points)}]" for n in edges
+            )
+            text = f"the edge {one} crosses the one {other}"
+            if self.points[edges[0]] == self.points[edges[1]]:
+                text = f"the edge {one} is there once more {other}"
+            yield "points", f"{text}; what an outline encloses twice is left empty (even-odd rule)"
+
+    @property
+    def fullness(self) -> float:
+        """Return about which share of the positions of the lattice becomes particles."""
+        h, v = (self._corners - self._corners[0]).T
+        area = 0.5 * abs(h @ np.roll(v, -1) - v @ np.roll(h, -1))
+        return min(area / np.ptp(self._corners, axis=0).prod(), 1.0)
+
     def lattice(self, cell: np.ndarray) -> Lattice:
         """Return the candidate positions; raises ValueError if there are too many."""
         edge = self.discretization_length or mean_edge(cell)
@@ -49,13 +69,21 @@ class Polygon2D(Filled):
         start, per_cell = list(map(min, axes)), self.particles_per_direction
         return Lattice.over(start, extent, 3 * [edge], per_cell, self.zero)
 
+    def holds(self, position: np.ndarray, cell: np.ndarray) -> np.ndarray:
+        """Tell which of the positions (n, 3) [m] lie in the prism."""
+        lattice = self.lattice(cell)
+        plane = [(self._along + 1) % 3, (self._along + 2) % 3]
+        nudge = np.maximum(ROUND_OFF * lattice.cell, self._resolution)[plane]
+        inside = contains(self._corners, *position[:, plane].T, nudge=nudge)
+        return inside & lattice.covers(position)
+
     def generate(self, cell: np.ndarray) -> Cloud:
         """Return the particles whose centres lie inside the polygon; `cell` (3,) is in m."""
         lattice = self.lattice(cell)
         horizontal, vertical = (self._along + 1) % 3, (self._along + 2) % 3
         axes = lattice.coordinates()
         inside = contains(
-            np.array(self.points, dtype=np.float64)[:, [horizontal, vertical]],
+            self._corners,
             axes[horizontal],
             axes[vertical],
             nudge=np.maximum(ROUND_OFF * lattice.cell, self._resolution)[[horizontal, vertical]],
@@ -68,6 +96,12 @@ class Polygon2D(Filled):
         plane = np.delete(np.array(self.points, dtype=np.float64), self._along, axis=1)
         size = np.linalg.svd(plane - plane[0], compute_uv=False)
         return size[1] <= max(ROUND_OFF * size[0], self._resolution.max())
+
+    @property
+    def _corners(self):
+        """Horizontal and vertical coordinates (m, 2) [m] of the corners."""
+        plane = [(self._along + 1) % 3, (self._along + 2) % 3]
+        return np.array(self.points, dtype=np.float64)[:, plane]
 
     @property
     def _resolution(self):

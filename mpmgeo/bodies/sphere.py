@@ -26,6 +26,10 @@ class Sphere(Filled):
         extent, per_cell = np.full(3, self.diameter), self.particles_per_direction
         return Lattice.over(start, extent, cell, per_cell, self.zero)
 
+    def holds(self, position: np.ndarray, cell: np.ndarray) -> np.ndarray:
+        """Tell which of the positions (n, 3) [m] lie in the ball."""
+        return np.linalg.norm(position - self.center, axis=1) < self.diameter / 2
+
     def generate(self, cell: np.ndarray) -> Cloud:
         """Return the particles at most one radius from the centre; `cell` (3,) is in m."""
         lattice = self.lattice(cell)

@@ -1,15 +1,17 @@
 """The volume elements of a Gmsh mesh by physical group."""
 
-from contextlib import contextmanager
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 from mpmgeo.bodies.elements import ELEMENTS, Element
+from mpmgeo.bodies.gmsh_file import GmshFile
 from mpmgeo.positions import NOWHERE, shown
 
-VOLUME = 3
+VOLUME, OTHERS = 3, (2, 1, 0)
+"""Dimensions."""
+
 FOLDED = 0.1
 """Share of an element's volume that may be inside out, as near corners of curved elements."""
 
@@ -35,8 +37,8 @@ class Volume(NamedTuple):
 
 
 class VolumeMesh:
-    """A mesh file whose volumes have names; `groups` lists them, `other_groups` those of surfaces,
-    curves and points.
+    """A mesh file with groups of volumes; `groups` lists their names, `other_groups` those of
+    groups of surfaces, curves and points. A group without a name is called by its number.
 
     Positions count from `zero` (3,) [m], not from the (0, 0, 0) of the file. Raises ValueError if
     the file is no mesh that can be read.
@@ -44,11 +46,19 @@ class VolumeMesh:
 
     def __init__(self, path: Path | str, zero=NOWHERE):
         self.path, self.zero = path, zero
-        self._mesh = _read(path)
-        names = self._mesh.field_data.items()
-        self._tag = {name: tag for name, (tag, dimension) in names if dimension == VOLUME}
+        self._file = GmshFile(path)
+        self._tag = self._groups((VOLUME,))
         self.groups = tuple(self._tag)
-        self.other_groups = tuple(name for name, _ in names if name not in self._tag)
+        self.other_groups = tuple(n for n in self._groups(OTHERS) if n not in self._tag)
+        self.has_names = any(name in self._file.names for name in self.groups)
+
+    def _groups(self, dimensions):
+        """Return the number of each group of some dimensions by its name."""
+        names = self._file.names.items()
+        named = {name: number for name, (number, d) in names if d in dimensions}
+        numbers = sorted({n for d in dimensions for n in self._file.numbers(d)})
+        plain = {str(n): n for n in numbers if n not in named.values()}
+        return named | {name: n for name, n in plain.items() if name not in named}
 
     def volumes(self, names) -> dict[str, Volume]:
         """Return the elements of some groups in the order of the file.
@@ -69,18 +79,10 @@ class VolumeMesh:
 
     def _members(self, name):
         """Yield kind and node numbers (n, k) of a group's elements, block by block."""
-        sets, tags = self._mesh.cell_sets.get(name), self._mesh.cell_data.get("gmsh:physical")
-        for index, block in enumerate(self._mesh.cells):
-            if block.dim != VOLUME:
-                continue
-            if sets is not None:
-                rows = sets[index]
-            elif tags is not None:
-                rows = np.flatnonzero(tags[index] == self._tag[name])
-            else:
-                rows = ()
+        for index, block in enumerate(self._file.blocks):
+            rows = self._file.members(index, self._tag[name]) if block.dim == VOLUME else ()
             if len(rows):
-                yield block.type, block.data[np.asarray(rows, np.int64)]
+                yield block.type, block.data[rows]
 
     def _piece(self, name, kind, numbers):
         where = f'{self.path}: the group "{name}"'
@@ -89,7 +91,7 @@ class VolumeMesh:
             raise ValueError(f"{where} holds elements of type {kind}; supported: {known}")
         if numbers.min() < 0:
             raise ValueError(f"{where} has elements whose nodes are not in the file")
-        nodes = (np.asarray(self._mesh.points, float) - self.zero)[numbers]
+        nodes = (self._file.points - self.zero)[numbers]
         if not np.isfinite(nodes).all():
             raise ValueError(f"{where} has nodes whose coordinates are not finite")
         element = ELEMENTS[kind]
@@ -114,38 +116,3 @@ def _untaken(taken, kind, numbers):
     fresh = np.sort(first[first >= len(before)]) - len(before)
     taken[kind] = np.concatenate([before, key[fresh]])
     return numbers[fresh]
-
-
-def _read(path):
-    """Return the meshio mesh of a file; raises ValueError if it has none."""
-    from meshio.gmsh import read
-
-    try:
-        with _tolerance():
-            return read(path)
-    except OSError as error:
-        raise ValueError(f"{path}: cannot be read ({error.strerror})") from None
-    except Exception as error:  # whatever meshio trips over in a file that is no mesh
-        reason = f" ({error})" if str(error) else ""
-        raise ValueError(f"{path}: no Gmsh mesh that can be read{reason}") from None
-
-
-@contextmanager
-def _tolerance():
-    """Let meshio read files of version 4.1 in which only some elements have a physical group.
-
-    It leaves the others out of the list of groups and then refuses the mesh for its length.
-    """
-    from meshio.gmsh import _gmsh41
-
-    strict = _gmsh41.Mesh
-
-    def tolerant(points, cells, cell_data, **others):
-        whole = {key: data for key, data in cell_data.items() if len(data) == len(cells)}
-        return strict(points, cells, cell_data=whole, **others)
-
-    _gmsh41.Mesh = tolerant
-    try:
-        yield
-    finally:
-        _gmsh41.Mesh = strict

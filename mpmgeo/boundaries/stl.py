@@ -1,7 +1,8 @@
 """Read triangles from an STL file, ASCII or binary, of whatever program wrote it.
 
 Which of the two it is tells its length: a binary file has 84 bytes and 50 for each triangle. The
-word "solid" does not, for many programs write it into the heading of binary files.
+word "solid" does not, for many programs write it into the heading of binary files. In a text the
+rest of a line with "solid" or "endsolid" is a name, whatever words it is made of.
 """
 
 import re
@@ -16,7 +17,9 @@ HEADING = 84  # bytes before the first triangle, the last four their number
 RECORD = np.dtype([("normal", "<f4", 3), ("corner", "<f4", (3, 3)), ("attribute", "<u2")])
 SINGLE = float(np.finfo(np.float32).eps)  # of coordinates in binary files
 NUMBER = rb"[ \t\r\n]+([^\s]+)"
-FACET = re.compile(rb"\bfacet\b", re.IGNORECASE)
+BYTE_ORDER_MARK = b"\xef\xbb\xbf"
+NAME = re.compile(rb"(?:^|(?<=[\r\n]))[ \t]*(?:end[ \t]?)?solid\b[^\r\n]*", re.IGNORECASE)
+FACET = re.compile(rb"(?<!end)(?<!end\s)\bfacet\b", re.IGNORECASE)
 END_OF_FACET = re.compile(rb"\bend\s?facet\b", re.IGNORECASE)
 VERTEX = re.compile(rb"\bvertex" + 3 * NUMBER, re.IGNORECASE)
 NORMAL = re.compile(rb"\bfacet[ \t\r\n]+normal" + 3 * NUMBER, re.IGNORECASE)
@@ -66,7 +69,8 @@ def _count(content):
 def _is_binary(content):
     if len(content) >= HEADING and len(content) == HEADING + RECORD.itemsize * _count(content):
         return True
-    return not (content.lstrip()[:5].lower() == b"solid" and b"\0" not in content[:4096])
+    start = content.removeprefix(BYTE_ORDER_MARK).lstrip()[:5].lower()
+    return not (start == b"solid" and b"\0" not in content[:4096])
 
 
 def _binary(path, content):
@@ -86,8 +90,9 @@ def _binary(path, content):
 
 
 def _ascii(path, content):
-    vertices, normals = VERTEX.findall(content), NORMAL.findall(content)
-    facets, ends = len(FACET.findall(content)), len(END_OF_FACET.findall(content))
+    text = _without_names(content.removeprefix(BYTE_ORDER_MARK))
+    vertices, normals = VERTEX.findall(text), NORMAL.findall(text)
+    facets, ends = len(FACET.findall(text)), len(END_OF_FACET.findall(text))
     if facets != ends or len(vertices) != 3 * ends:
         raise ValueError(
             f"{path}: cut short or damaged: {facets} facets begin, {ends} end, and "
@@ -101,6 +106,12 @@ def _ascii(path, content):
     if not END.search(content, max(0, content.rfind(b"\n", 0, len(content.rstrip())))):
         warnings = (f"{path}: the last line is not endsolid; the file may be cut short",)
     return Triangles(corner, normal, False, warnings)
+
+
+def _without_names(text):
+    """Return a text without the names of its solids, if they stand on lines of their own."""
+    is_one_line = not re.search(rb"[\r\n]", text.strip())
+    return text if is_one_line else NAME.sub(b"", text)
 
 
 def _numbers(path, words, what):

@@ -10,7 +10,8 @@ from mpmgeo.case.meaning.draft import draft
 from mpmgeo.case.reading.aliases import rename
 from mpmgeo.case.reading.explain import validate
 from mpmgeo.case.reading.inactive import drop_inactive
-from mpmgeo.case.reading.text import read, survey
+from mpmgeo.case.reading.named import number_names
+from mpmgeo.case.reading.text import read, survey, survey_moved
 from mpmgeo.case.report import CaseError, CaseWarning, Report, show
 from mpmgeo.case.spec import Case
 
@@ -48,6 +49,8 @@ def _tree(source, report):
         report.raise_errors()
     rename(tree, report)
     drop_inactive(tree, report)
+    survey_moved(tree, report)
+    number_names(tree, report)
     validate(tree, report)
     return tree
 

@@ -71,7 +71,7 @@ class Report:
 
     def raise_errors(self, strict=False):
         """Raise CaseError if there are errors; `strict` counts warnings as errors."""
-        problems = list(self.errors.values())
+        problems = list(dict.fromkeys(self.errors.values()))
         warnings = list(self.warnings.values())
         if strict:
             problems, warnings = problems + warnings, []

@@ -73,7 +73,7 @@ def _is_settled(key):
 
 
 def topics_of(path, facts) -> set:
-    """Return what the user has been told of in earlier parts of a run; ValueError for no snapshot."""
+    """Return what the user has been told of before; raises ValueError for no snapshot of a run."""
     told = facts.get("told")
     if not (isinstance(told, list) and all(isinstance(topic, str) for topic in told)):
         raise ValueError(f"{path}: is no snapshot of a run")

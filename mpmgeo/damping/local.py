@@ -25,7 +25,7 @@ class LocalDamping(Damping):
 
     type: ClassVar[str] = "local"
 
-    value: float = parameter("Share of the out-of-balance force", minimum=0, default=0.0)
+    value: float = parameter("Share of the out-of-balance force", minimum=0, maximum=1, default=0.0)
 
     @property
     def symbols(self):

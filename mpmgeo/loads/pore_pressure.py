@@ -51,7 +51,7 @@ class InitialPressureMaterial(Action):
     needs_two_phases: ClassVar[bool] = True
     is_kept: ClassVar[bool] = False
 
-    material_id: int = parameter("Number of the material")
+    material_id: int = parameter("Number of the material", names="materials")
     pressure: float = parameter("Pore pressure, compression positive", unit="Pa")
 
     def wets(self, position: np.ndarray, material: np.ndarray) -> np.ndarray:

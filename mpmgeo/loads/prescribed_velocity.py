@@ -60,7 +60,7 @@ class PrescribedVelocity(Action, Placed):
     called: ClassVar[str | None] = "prescribed_velocity"
 
     name: str = parameter("Name of the file of its history, in the folder reactions", default="")
-    body: int | None = parameter("Number of a body, from 1", minimum=1, default=None)
+    body: int | None = parameter("Number of a body, from 1", minimum=1, names="body", default=None)
     point_p1: Vector | None = parameter(
         "Corner of lowest coordinates of a box; the particles that start in it are meant",
         unit="m",

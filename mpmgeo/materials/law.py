@@ -1,10 +1,13 @@
 """What every material law declares, and what it gives to the kernels: the update of one point."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from math import inf
 
 from mpmgeo.materials.rotation import objective_rate
 from mpmgeo.numerics.dispatch import generic
 from mpmgeo.parameters import Vector, parameter
+from mpmgeo.values import is_usable
 
 
 @dataclass(frozen=True)
@@ -31,6 +34,15 @@ class Law:
         above=0,
         default=None,
     )
+
+    def problems(self) -> Iterator[tuple[str, str]]:
+        """Yield (key, message) if the material has no wave speed that can be calculated with."""
+        try:
+            speed = self.sound_speed()
+        except (ZeroDivisionError, OverflowError):
+            speed = inf
+        if not (is_usable(self.density) and is_usable(speed)):
+            yield "density", f"{self.density:g} kg/m³ and the stiffness make no usable wave speed"
 
     @property
     def symbols_as_mpm_geomechanics(self):

@@ -147,7 +147,8 @@ class MohrCoulomb(Elastic):
     objective_rate: str = objective_rate("jaumann")
 
     def problems(self) -> Iterator[tuple[str, str]]:
-        """Yield (key, message) where a strength without bound would have to soften."""
+        """Yield (key, message) where a strength without bound would have to soften, or as `Law`."""
+        yield from super().problems()
         if self._softens("tensile") and self._peak("tensile") == inf:
             yield "tensile", "is required where it softens and friction, 0, does not limit it"
 

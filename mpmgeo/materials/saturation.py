@@ -10,8 +10,10 @@ modulus of the fluid, M: stiffness of the dry skeleton without lateral strain, �
 Source: Biot (1956), J. Acoust. Soc. Am. 28, 168–178, for grains that do not change their volume.
 """
 
-from math import sqrt
+from math import inf, sqrt
 from typing import NamedTuple
+
+from mpmgeo.values import is_usable
 
 KEYS = ("density_fluid", "porosity", "bulk_fluid", "hydraulic_conductivity")
 """Keys of a material that only two phases need."""
@@ -47,6 +49,17 @@ def wave_speed(law) -> float:
     a = (M + (1 - n) ** 2 * K / n) / ρ1 + n * K / ρ2
     b = M * n * K / (ρ1 * ρ2)
     return sqrt((a + sqrt(max(a * a - 4 * b, 0.0))) / 2)
+
+
+def problem(law, gravity: float) -> str | None:
+    """Return what is wrong if a law with its fluid cannot be calculated with; see `pore_fluid`."""
+    try:
+        numbers = (wave_speed(law), *densities(law), *pore_fluid(law, gravity))
+    except (ZeroDivisionError, OverflowError):
+        numbers = (inf,)
+    if all(map(is_usable, numbers)):
+        return None
+    return "grains, pores and fluid make no usable wave speed, density or drag"
 
 
 def critical_time_step(law, cell: float, speed: float) -> float:

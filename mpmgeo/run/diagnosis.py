@@ -24,6 +24,14 @@ def diagnose(simulation, error, last_stress):
     )
 
 
+def last_stress(kept, row):
+    """Return the stress (6,) [Pa] that a kept state, or None, has of the particle in a row."""
+    for name, rows in (kept or {}).items():
+        if name.endswith(".row") and (found := rows == row).any():
+            return kept[name.removesuffix("row") + "stress"][found][0]
+    return None
+
+
 def _cause(simulation, dt):
     critical = simulation.critical_time_step
     if dt > critical:

@@ -65,7 +65,7 @@ class Progress(Watcher):
         self.compilation.clock = simulation.solver.clock
         self._start = self._shown = perf_counter()
         self._first_step = None
-        self._steps = self._begun = simulation.steps
+        self._work = self._first_work = 0  # steps of active particles
         self._messages = len(simulation.messages)
         if self.live:
             self._bar = Bar(self.stream, simulation.case.time, self.compilation)
@@ -74,11 +74,12 @@ class Progress(Watcher):
         """Show the state if it is time to."""
         if len(simulation.messages) > self._messages:
             self._news(simulation)
+        self._work += sum(s.active for s in simulation.solver.sets)
         now = perf_counter()
         if self._first_step is None:
             self._first_step = self._shown = now
             self._compiled = self.compilation.seconds
-            self._steps, self._first_time = simulation.steps, simulation.time
+            self._first_work, self._first_time = self._work, simulation.time
             return
         if now - self._shown < (REFRESH if self.live else LINE):
             return
@@ -91,11 +92,10 @@ class Progress(Watcher):
             return 0.0
         return now - self._first_step - (self.compilation.seconds - self._compiled)
 
-    def _speed(self, simulation, now):
+    def _speed(self, now):
         if self._first_step is None:
             return 0.0
-        done = (simulation.steps - self._steps) * simulation.solver.count
-        return done / max(self._seconds(now), 1e-9) / 1e6
+        return (self._work - self._first_work) / max(self._seconds(now), 1e-9) / 1e6
 
     def _left(self, simulation, now):
         """Return the time that the run still takes [s], None before there is an estimate."""
@@ -105,7 +105,7 @@ class Progress(Watcher):
         return max(simulation.case.time - simulation.time, 0.0) * self._seconds(now) / done
 
     def _show(self, simulation, now):
-        speed, left = self._speed(simulation, now), self._left(simulation, now)
+        speed, left = self._speed(now), self._left(simulation, now)
         energy = simulation.kinetic_energy()
         if self._bar is not None:
             time, steps = simulation.time, simulation.steps
@@ -152,14 +152,14 @@ class Progress(Watcher):
         table.add_column("stage")
         table.add_column("s", justify="right")
         table.add_column("ns/particle/step", justify="right")
-        work = max((simulation.steps - self._begun) * simulation.solver.count, 1)
+        work = max(self._work, 1)
         for stage, seconds in simulation.solver.clock.seconds.items():
             table.add_row(stage, f"{seconds:.2f}", f"{seconds / work * 1e9:.1f}")
         console = Console(file=self.stream, highlight=False)
         console.print(table)
         self._print(
             f"{simulation.steps} steps, {simulation.solver.count} particles, "
-            f"{now - self._start:.2f} s, {self._speed(simulation, now):.2f} M particle-steps/s, "
+            f"{now - self._start:.2f} s, {self._speed(now):.2f} M particle-steps/s, "
             f"compilation {self.compilation.seconds:.1f} s, "
             f"peak memory {peak_memory() / 2**20:.0f} MiB, {simulation.threads} thread(s)"
         )

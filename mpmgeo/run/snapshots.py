@@ -20,10 +20,15 @@ class Snapshots(Watcher):
         self._written = None
 
     def begin(self, simulation):
-        """Remove the snapshots of an earlier run that are later than the state."""
-        for step, path in self._files():
-            if step > simulation.steps:
-                path.unlink()
+        """Remove the snapshots of an earlier run that are later than the state, and say so."""
+        later = [path for step, path in self._files() if step > simulation.steps]
+        for path in later:
+            path.unlink()
+        if later:
+            simulation.say(
+                f"{self.folder} held {len(later)} later snapshots of an earlier run, which were "
+                f"removed: {later[-1].name}{' and others' if len(later) > 1 else ''}"
+            )
 
     def after_step(self, simulation):
         """Write a snapshot if one is due, and remove the oldest."""

@@ -32,7 +32,7 @@ VELOCITIES = [
     ({"a": STILL | {"point_p1": [0, 0, 0]}}, "point_p1 and point_p2 are given together"),
     ({"a": STILL | TURNED}, "prescribed_velocity.a.point_p2: z is -1, below that of point_p1, 0"),
     ({"a": STILL | {"body": 0}}, f"prescribed_velocity.a.body: 0 {NOT} a whole number at least 1"),
-    ({"a": STILL | {"body": "wedge"}}, 'prescribed_velocity.a.body: "wedge"'),
+    ({"a": STILL | {"body": "wegde"}}, 'prescribed_velocity.a.body: "wegde"'),
     ({"a": STILL | {"body": 4}}, "there is no body 4; bodies are numbered from 1 to 3"),
     ({"a": STILL | {"plane": "z0"}}, f'prescribed_velocity.a.plane: "z0" {NOT} "X0", "Y0", "Z0"'),
     ({"a": STILL | {"plane": "Z0"}}, "prescribed_velocity.a.plane: Z0 is moved by earthquake"),

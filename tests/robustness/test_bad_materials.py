@@ -156,3 +156,63 @@ def test_only_density_and_stiffness_are_required(case, folder):
     soil = {key: SAND[key] for key in ("type", "id", "density", "young", "poisson")}
     [law] = load_case(case | {"materials": [soil]}).materials
     assert (law.friction, law.cohesion, law.dilation, law.tensile) == (0.0, 0.0, 0.0, None)
+
+
+EXTREMES = [
+    {"density": 1e100, "young": 1e-300},
+    {"density": 1e-320, "young": 1e100},
+    {"density": 1e-70},
+    {"density": 1e70},
+    {"young": 1e-320},
+    {"density": 1e-30, "young": 1e100},
+]
+
+
+@pytest.mark.parametrize("law", [SAND, WATER], ids=lambda law: law["type"])
+@pytest.mark.parametrize("keys", EXTREMES, ids=str)
+def test_numbers_that_make_no_wave_speed(case, folder, keys, law):
+    """Once divisions by zero, tracebacks."""
+    stiffness = "young" if law is SAND else "bulk"
+    keys = {stiffness if key == "young" else key: value for key, value in keys.items()}
+    case["materials"] = {"soil": law | keys}
+    del case["time_step"]
+    with pytest.raises(CaseError) as caught:
+        load_case(case)
+    (problem,) = [p for p in caught.value.problems if "time" not in p]
+    assert problem.startswith("materials.soil.density: ")
+    assert "make no usable wave speed" in problem
+
+
+@pytest.mark.parametrize("word", ["material", "materials"])
+@pytest.mark.parametrize("as_list", [True, False], ids=["list", "object"])
+@pytest.mark.parametrize("value", [float("inf"), float("nan"), 1e200])
+def test_no_finite_number_in_either_spelling(case, folder, word, as_list, value):
+    """Once the old spelling was not found to be wrong, and ended in a traceback."""
+    soil = case.pop("materials")["soil"] | {"density": value}
+    case[word] = [soil] if as_list else {"soil": soil}
+    with pytest.raises(CaseError) as caught:
+        load_case(case)
+    (problem,) = caught.value.problems
+    assert problem.startswith(f"{word}[0].density: " if as_list else f"{word}.soil.density: ")
+
+
+def test_no_finite_number_behind_a_body_that_is_left_out(case, folder):
+    block = case["body"]["block"] | {"point_p1": [0, 0, float("-inf")]}
+    case["body"] = [{"type": "gmsh", "active": False}, block]
+    with pytest.raises(CaseError) as caught:
+        load_case(case)
+    assert caught.value.problems == ["body[1].point_p1[2]: -Infinity is no finite number"]
+
+
+def test_no_finite_number_in_other_old_spellings(case, folder):
+    case["body"] = {
+        "p": {
+            "type": "particles",
+            "particles": {"position": [[1, 1, 1]], "volume": [1], "material_id": float("nan")},
+        }
+    }
+    case["results"]["material-point-results"] = {"fields": ["stress", float("inf")]}
+    with pytest.raises(CaseError) as caught:
+        load_case(case)
+    for place in ("body.p.particles.material_id", "results.material-point-results.fields[1]"):
+        assert any(p.startswith(f"{place}: ") for p in caught.value.problems)

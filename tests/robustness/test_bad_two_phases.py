@@ -52,6 +52,22 @@ def test_values_of_the_fluid(wet, key, value, message, capsys):
     assert f"materials.{name}.{message}" in refusal_of(wet, capsys)
 
 
+EXTREMES = [
+    {"porosity": 1e-300},
+    {"density_fluid": 1e-320},
+    {"hydraulic_conductivity": [1e-320, 1, 1]},
+    {"bulk_fluid": 1e100, "density_fluid": 1e-50},
+]
+
+
+@pytest.mark.parametrize("keys", EXTREMES, ids=str)
+def test_numbers_that_cannot_be_calculated_with(wet, keys, capsys):
+    name = next(iter(wet["materials"]))
+    wet["materials"][name] |= keys
+    shown = refusal_of(wet, capsys)
+    assert f"materials.{name}: grains, pores and fluid make no usable wave speed" in shown
+
+
 COUPLING = {"enabled": True, "pore_pressure_field": "pressures.json"}
 PARTS = [
     ({"stress_scheme_update": "USF"}, 'stress_scheme_update: "USF" is for one phase; accepted wi'),

@@ -44,8 +44,9 @@ def test_round_off_in_coordinates_adds_no_layer(cell):
     for first in np.arange(1, 40):
         low = [round(EAST + 0.1 * first, 2), round(NORTH + 0.1 * first, 2), 0.0]
         high = [round(low[0] + 0.1, 2), round(low[1] + 0.1, 2), 0.2]
-        case = mpmgeo.load_case(block(low, high, cell=cell))
-        simulation = mpmgeo.Simulation(case)
+        case = block(low, high, cell=cell)
+        case["mesh"]["cells_number"] = 3 * [84]
+        simulation = simulate(case)
         assert simulation.field("mass").sum() == pytest.approx(4.0)
         assert not simulation.messages
 

@@ -1,10 +1,13 @@
 """Physics checks before a run: what is possible, but hardly meant."""
 
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 
 from mpmgeo.case.building.limits import limits
+from mpmgeo.case.building.overlap import overlaps
+from mpmgeo.case.building.proportions import out_of_proportion
 from mpmgeo.case.coordinates import in_mesh
 from mpmgeo.case.spec import ACTIONS
 from mpmgeo.positions import shown
@@ -36,6 +39,8 @@ def lint(simulation) -> list[str]:
         *_terrain(case),
         *_record(case, simulation.time_step),
         *limits(case),
+        *out_of_proportion(case, position, body, simulation.time_step),
+        *overlaps(case, position, body, partial(simulation.field, "mass")),
     ]
 
 

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from mpmgeo.positions import shown
+from mpmgeo.region import within
 from mpmgeo.state.particles import Population
 
 
@@ -20,6 +22,7 @@ def populate(case, notes):
     listed = np.repeat([body.is_listed for body in bodies], counts)
     material = [np.broadcast_to(cloud.material, len(cloud.position)) for cloud in clouds]
     position = np.concatenate([cloud.position for cloud in clouds])
+    _refuse_outside(case.mesh, position)
     loads = case.acting("particle_force")
     force = sum(load.particle_force(position) for load in loads) if loads else None
     population = Population(
@@ -33,6 +36,17 @@ def populate(case, notes):
     )
     velocity = np.repeat([body.initial_velocity for body in bodies], counts, axis=0)
     return population, velocity, _laws(case.materials, population.material, listed)
+
+
+def _refuse_outside(mesh, position):
+    """Raise ValueError if there are particles and none of them lies in the mesh."""
+    if len(position) and not within(mesh.origin, mesh.upper, position, mesh.zero).any():
+        low, high, upper = position.min(axis=0), position.max(axis=0), mesh.upper
+        raise ValueError(
+            f"body: none of the {len(position)} particles lies in the mesh; they reach from "
+            f"{shown(low, mesh.zero)} to {shown(high, mesh.zero)}, the mesh from "
+            f"{shown(mesh.origin, mesh.zero)} to {shown(upper, mesh.zero)}"
+        )
 
 
 def _creation(listed):

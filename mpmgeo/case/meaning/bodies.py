@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from mpmgeo.case.meaning.sizes import check_sizes
 from mpmgeo.case.spec import ACTIONS
 from mpmgeo.values import shown
 
@@ -20,6 +21,7 @@ def check_bodies(draft, report):
             for keys, message in complaints:
                 report.error(part.at(*keys), message)
             sound += [] if complaints else [part]
+        check_sizes(sound, mesh, report)
     return sound
 
 

@@ -7,6 +7,7 @@ from mpmgeo.case.kinds import containers
 from mpmgeo.case.meaning.bodies import check_bodies, check_materials
 from mpmgeo.case.meaning.phases import check_phases, note_idle
 from mpmgeo.case.meaning.schemes import check_schemes
+from mpmgeo.case.meaning.slips import warn_of_slips
 from mpmgeo.case.meaning.steps import check_steps
 from mpmgeo.case.spec import ACTIONS, Case
 from mpmgeo.loads import BaseAcceleration, PrescribedVelocity
@@ -29,6 +30,7 @@ def check(draft, report):
     _check_base(draft, report)
     check_phases(draft, report)
     note_idle(draft, report)
+    warn_of_slips(draft, sound, report)
 
 
 def _actions(draft):

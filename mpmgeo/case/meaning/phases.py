@@ -16,9 +16,19 @@ def check_phases(draft, report):
         for key in saturation.KEYS:
             if key not in part.given:
                 report.error(part.at(key), "missing; needed with two phases")
+        _check_fluid(part, case, report)
     for key, value, message in NOT_WITH_TWO_PHASES:
         if key in case.given and value in (None, case.values.get(key)):
             report.error((key,), message)
+
+
+def _check_fluid(part, case, report):
+    """Report that a saturated material cannot be calculated with."""
+    law, gravity = part.made, case.values.get("conductivity_gravity")
+    if law and gravity and all(getattr(law, key) is not None for key in saturation.KEYS):
+        message = saturation.problem(law, gravity)
+        if message:
+            report.error(part.path, message)
 
 
 def note_idle(draft, report):

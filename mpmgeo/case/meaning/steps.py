@@ -30,6 +30,8 @@ def _automatic_step(draft):
         return None
     if two and any(getattr(law, key) is None for law in laws for key in saturation.KEYS):
         return None
+    if two and any(saturation.problem(law, case.get("conductivity_gravity", 1.0)) for law in laws):
+        return None
     cell = min(mesh[0].cells_dimension)
     if two:
         steps = [saturation.critical_time_step(law, cell, 0.0) for law in laws]

@@ -142,7 +142,7 @@ def _raise_material(tree, report):
     for path, body in places(tree, ("body", "*")):
         listed = body.get("particles")
         number = listed.get("material_id") if isinstance(listed, dict) else None
-        if isinstance(number, int | float) and not isinstance(number, bool):
+        if isinstance(number, int | float | str) and not isinstance(number, bool):
             body.setdefault("material_id", listed.pop("material_id"))
             report.note((*path, "particles", "material_id"), "read as the material of the body")
 

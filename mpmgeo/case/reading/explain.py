@@ -1,8 +1,10 @@
 """What the JSON Schema finds wrong in a case, in words that help to put it right."""
 
+from functools import cache
+
 from mpmgeo.case.reading.aliases import FIELD_LISTS, OBSOLETE
 from mpmgeo.case.reading.schema import CONTAINERS, INTEGERS, case_schema
-from mpmgeo.case.report import nearest
+from mpmgeo.case.reading.words import meant
 from mpmgeo.values import shown
 
 FIELD_ENTRIES = tuple((key, "*") for key in FIELD_LISTS)
@@ -28,10 +30,9 @@ NOUNS = {
 
 def validate(tree, report):
     """Report everything in a tree of canonical keys that the schema does not allow."""
-    from jsonschema import Draft202012Validator
-
-    schema = case_schema()
-    for error in Draft202012Validator(schema).iter_errors(tree):
+    validator = _validator()
+    schema = validator.schema
+    for error in validator.iter_errors(tree):
         path = tuple(error.absolute_path)
         if error.validator == "additionalProperties":
             _unknown(error, path, schema, report)
@@ -39,6 +40,14 @@ def validate(tree, report):
             _missing(error, path, schema, report)
         else:
             _wrong(error, path, schema, report)
+
+
+@cache
+def _validator():
+    """Return what looks at trees; made once, which takes as long as looking at one."""
+    from jsonschema import Draft202012Validator
+
+    return Draft202012Validator(case_schema())
 
 
 def place_of(path) -> tuple[str, ...]:
@@ -64,7 +73,8 @@ def accepted(schema, is_limit=False, plural=False) -> str:
     kind = kinds if isinstance(kinds, str) else kinds[0]
     if kind != "array":
         null = " or null" if "null" in kinds else ""
-        return NOUNS[kind][plural] + null + _limits(schema, is_limit)
+        name = ", or a name" if kinds == ["integer", "string"] else ""
+        return NOUNS[kind][plural] + null + _limits(schema, is_limit) + name
     count = f" of {schema['minItems']}" if schema.get("minItems", 0) > 1 else ""
     if "prefixItems" in schema:
         return f"{NOUNS[kind][plural]}{count} {accepted(schema['prefixItems'][0], plural=True)}"
@@ -84,7 +94,7 @@ def _limits(schema, is_limit):
 
 def _wrong(error, path, schema, report):
     value, place = error.instance, place_of(path)
-    near = nearest(value, error.schema.get("enum", ()))
+    near = meant(value, error.schema.get("enum", ()))
     hint = f"; did you mean {shown(near)}?" if near else ""
     text = accepted(error.schema, is_limit=error.validator in LIMITS)
     if place[-2:] in FIELD_ENTRIES and isinstance(value, str):
@@ -113,7 +123,7 @@ def _unknown(error, path, schema, report):
     current = [key for key in known if not known[key].get("deprecated")]
     place = place_of(path)
     for number, key in enumerate(key for key in error.instance if key not in known):
-        near = OBSOLETE.get((place, key)) or (number < MOST_HINTS and nearest(key, current))
+        near = OBSOLETE.get((place, key)) or (number < MOST_HINTS and meant(key, current))
         hint = f'; did you mean "{near}"?' if near else _home(key, schema)
         report.warn((*path, key), f"unknown key, ignored{hint}")
 

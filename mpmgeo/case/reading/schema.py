@@ -131,6 +131,8 @@ def _scalar(kind, metadata):
         result["type"] = [result["type"], "null"]
     if kind.name == "integer" and metadata["choices"] is None:
         result |= INTEGERS
+    if metadata["names"] is not None:
+        result["type"] = [result["type"], "string"]
     for name, value in metadata["bounds"].items():
         result[BOUNDS[name]] = value
     if metadata["choices"] is not None:

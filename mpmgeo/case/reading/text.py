@@ -64,6 +64,19 @@ def survey(node, report, path=()) -> bool:
     return all(found)
 
 
+def survey_moved(node, report, path=()):
+    """Report numbers that a case cannot hold once more, by the paths that they have by now.
+
+    What follows looks for errors by path, and old spellings have gone.
+    """
+    if isinstance(node, dict | list):
+        for key, value in node.items() if isinstance(node, dict) else enumerate(node):
+            survey_moved(value, report, (*path, key))
+    else:
+        _survey_number(node, report, path)
+        _survey_text(node, report, path)
+
+
 def _is_read(path):
     return path[:1] != ("expected",)
 

@@ -12,6 +12,7 @@ from mpmgeo.output.particle_fields import TENSORS, field_of
 from mpmgeo.parameters import parameter
 
 FIELDS = ("position", "mass", *PARTICLE_FIELDS, *FURTHER_FIELDS)
+FAR = 2.0**60
 VECTOR, TENSOR = ("x", "y", "z"), ("xx", "yy", "zz", "xy", "yz", "xz")
 
 
@@ -70,8 +71,9 @@ def particles_within(solver, s, low, high) -> np.ndarray:
     cell = np.array(solver.grid.mesh[:3])
     # the first node of a particle lies this many cells below it at most
     reach = 0.5 * (solver.grid.width - 2) + 1
-    first = np.floor(np.asarray(low) / cell - reach).astype(np.int64) >> 2
-    last = np.floor(np.asarray(high) / cell).astype(np.int64) >> 2
+    limits = -FAR, FAR  # cells; beyond, whole numbers would overflow
+    first = np.floor(np.clip(np.asarray(low) / cell - reach, *limits)).astype(np.int64) >> 2
+    last = np.floor(np.clip(np.asarray(high) / cell, *limits)).astype(np.int64) >> 2
     corner = solver.grid.corner
     near = np.flatnonzero(((corner >= first) & (corner <= last)).all(axis=1))
     ranges = [np.arange(s.start[b], s.start[b + 1]) for b in near if s.start[b] < s.start[b + 1]]

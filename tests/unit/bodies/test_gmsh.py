@@ -1,5 +1,7 @@
 """Bodies from Gmsh files: groups, formats, elements, distributions."""
 
+import re
+
 import meshes
 import meshio
 import numpy as np
@@ -86,6 +88,56 @@ def test_several_blocks_of_a_group_in_a_file_where_others_have_none(tmp_path):
         meshio.gmsh.read(path)
     (soil,) = clouds(path, {"soil": 1})
     assert len(soil.position) == 20
+
+
+def without_names(path):
+    """Drop the names of the groups from a file; their numbers stay."""
+    text = path.read_text()
+    start, end = text.index("$PhysicalNames"), text.index("$EndPhysicalNames\n")
+    path.write_text(text[:start] + text[end + len("$EndPhysicalNames\n") :])
+    return path
+
+
+@pytest.mark.parametrize("version", ["2.2", "4.1"])
+def test_groups_without_a_name_are_called_by_their_number(tmp_path, version):
+    names = {"soil": (5, 3), "rock": (12, 3)}
+    mesh = meshes.mesh_of({"soil": [SOIL], "rock": [ROCK]}, names)
+    path = without_names(meshes.write(tmp_path / "m.msh", mesh, version))
+    rock, soil = clouds(path, {"5": 1, "12": 2})
+    assert (len(rock.position), len(soil.position)) == (12, 8)
+    assert (rock.material, soil.material) == (2, 1)
+    complaints = dict(body(path, {"soil": 1}).complaints(CELL))
+    assert complaints["mesh_file",].endswith(
+        "m.msh has no physical group of volumes with a name, but with a number alone, which can be "
+        'used as its name: "5", "12"'
+    )
+
+
+@pytest.mark.parametrize("version", ["2.2", "4.1"])
+def test_some_groups_have_names_and_some_numbers(tmp_path, version):
+    names = {"soil": (5, 3), "rock": (12, 3)}
+    mesh = meshes.mesh_of({"soil": [SOIL], "rock": [ROCK]}, names)
+    path = meshes.write(tmp_path / "m.msh", mesh, version)
+    lines = [line for line in path.read_text().splitlines() if '"rock"' not in line]
+    lines[lines.index("$PhysicalNames") + 1] = "1"
+    path.write_text("\n".join(lines) + "\n")
+    assert [len(cloud.position) for cloud in clouds(path, {"soil": 1, "12": 2})] == [12, 8]
+    ((place, message),) = body(path, {"rock": 1}).complaints(CELL)
+    assert place == ("physical_to_material", "rock")
+    assert message == 'no physical group of the mesh, which has "soil", "12"'
+
+
+@pytest.mark.parametrize("version", ["2.2", "4.1"])
+def test_messages_do_not_speak_python(tmp_path, version):
+    """Every number of the file in turn is made one that nothing else in it knows."""
+    mesh = meshes.mesh_of({"soil": [(ROCK[0], ROCK[1], ROCK[2][:1])]})
+    whole = meshes.write(tmp_path / "m.msh", mesh, version).read_text().split(" ")
+    for index, text in enumerate(whole):
+        if text.strip().isdecimal():
+            changed = [*whole[:index], text.replace(text.strip(), "97"), *whole[index + 1 :]]
+            (tmp_path / "m.msh").write_text(" ".join(changed))
+            for _, message in body(tmp_path / "m.msh", {"soil": 1}).complaints(CELL):
+                assert not re.search(r"np\.|int32|NoneType|object", message)
 
 
 def test_an_element_of_two_groups_belongs_to_the_first(tmp_path):

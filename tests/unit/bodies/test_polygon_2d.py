@@ -180,3 +180,37 @@ def test_too_few_points_are_a_problem():
     ((key, message),) = polygon([(0, 0, 0), (1, 0, 0)]).problems()
     assert (key, message) == ("points", "has 2 points and needs at least 3")
     assert list(polygon(along_y(SQUARE)).problems()) == []
+
+
+STAR = [(0.5, 1.0), (0.79, 0.1), (0.02, 0.65), (0.98, 0.65), (0.21, 0.1)]
+BOW = [(0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0)]
+FRAME = [(0, 0), (3, 0), (3, 3), (0, 3), (0, 0), (1, 1), (1, 2), (2, 2), (2, 1), (1, 1)]
+
+
+@pytest.mark.parametrize("direction", ["x", "y", "z"])
+@pytest.mark.parametrize(
+    ("outline", "message"),
+    [
+        (STAR, "the edge from points[0] to points[1] crosses the one from points[2] to points[3]"),
+        (BOW, "the edge from points[0] to points[1] crosses the one from points[2] to points[3]"),
+        (
+            SQUARE * 2,
+            "the edge from points[0] to points[1] is there once more from points[4] to points[5]",
+        ),
+    ],
+)
+def test_an_outline_that_crosses_itself_is_told_of(direction, outline, message):
+    axis = "xyz".index(direction)
+    points = [tuple(np.insert(point, axis, 0.0)) for point in outline]
+    ((key, text),) = polygon(points, direction).remarks()
+    assert key == "points" and text.startswith(message) and "even-odd rule" in text
+
+
+@pytest.mark.parametrize("outline", [SQUARE, SQUARE[::-1], FRAME, (*SQUARE, SQUARE[0])])
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e6])
+@pytest.mark.parametrize("turn", [0.0, 0.3])
+def test_outlines_that_touch_themselves_do_not_cross(outline, scale, turn):
+    """A square, a frame with a slit to its hole, a corner given twice."""
+    c, s = np.cos(turn), np.sin(turn)
+    points = along_y(scale * (np.array(outline, float) @ [[c, s], [-s, c]]))
+    assert list(polygon(points).remarks()) == []

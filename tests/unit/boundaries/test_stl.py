@@ -56,6 +56,38 @@ def test_several_solids_are_one_surface(tmp_path):
     assert read_stl(path).corner == pytest.approx(HILL)
 
 
+NAMES = ("facet model", "vertex 1 2 3", "endfacet", "end facet of it", "a facet normal 0 0 1")
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"], ids=repr)
+def test_words_of_the_format_in_a_name_are_a_name(tmp_path, name, end):
+    path = tmp_path / "hill.stl"
+    path.write_bytes(terrains.text_of(HILL, name).replace("\n", end).encode())
+    found = read_stl(path)
+    assert found.corner == pytest.approx(HILL)
+    assert found.warnings == ()
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda text: text.replace("endfacet", "end facet"),
+        lambda text: text.replace("endfacet", "END FACET").replace("endsolid", "end solid"),
+        lambda text: "\ufeff" + text,
+        lambda text: "\ufeff\n " + text,
+        lambda text: " ".join(text.split()),
+    ],
+    ids=["end facet", "END FACET", "byte order mark", "mark and blanks", "one line"],
+)
+def test_ways_to_write_a_text(tmp_path, change):
+    path = tmp_path / "hill.stl"
+    path.write_bytes(change(terrains.text_of(HILL)).encode())
+    found = read_stl(path)
+    assert found.corner == pytest.approx(HILL)
+    assert found.warnings == ()
+
+
 TEXT, BINARY = terrains.text_of(HILL).encode(), terrains.binary_of(HILL)
 LINES = TEXT.splitlines(keepends=True)
 

@@ -103,6 +103,18 @@ def test_box(flown):
     assert total["mass"] == pytest.approx(flown.field("mass")[inside].sum())
 
 
+@pytest.mark.parametrize("far", [1e12, 1e20, 1e100])
+def test_a_box_without_end_holds_all_particles(flown, far):
+    """Once no cell could be counted that far away, and the box held none."""
+    low, high = 3 * (-far,), 3 * (far,)
+    found = row(flown, BoxProbe(point_p1=low, point_p2=high, fields=("mass",), reduction="sum"))
+    assert found["particles"] == 96
+    assert found["mass"] == pytest.approx(flown.field("mass").sum())
+    for half in (((-far, -far, -far), (far, 1.4, far)), ((-far, 1.4, -far), (far, far, far))):
+        found = row(flown, BoxProbe(point_p1=half[0], point_p2=half[1], fields=("mass",)))
+        assert 0 < found["particles"] < 96
+
+
 def test_empty_box(flown):
     box = {"point_p1": (3.8, 2.8, 4.8), "point_p2": (4.0, 3.0, 5.0), "fields": ("mass",)}
     mean, total = row(flown, BoxProbe(**box)), row(flown, BoxProbe(**box, reduction="sum"))
