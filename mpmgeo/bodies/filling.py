@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mpmgeo.bodies.lattice import MOST_POSITIONS
+from mpmgeo.bodies.lattice import too_many
 from mpmgeo.bodies.volume_mesh import Piece
 
 ROUND_OFF = 1e-9
@@ -93,11 +93,8 @@ def _middles_inside(piece, start, spacing, resolution) -> Iterator[tuple[np.ndar
     lowest = np.ceil((low - start) / spacing - 0.5 - slack)
     extent = np.floor((high - start) / spacing - 0.5 + slack) - lowest + 1
     number = np.prod(np.maximum(extent, 0), axis=1)
-    if number.sum() > MOST_POSITIONS:
-        raise ValueError(
-            f"the body needs about {number.sum():.3g} particle positions, "
-            f"more than the {MOST_POSITIONS:.0e} that fit"
-        )
+    if message := too_many(float(number.sum())):
+        raise ValueError(message)
     lowest, extent = lowest.astype(np.int64), extent.astype(np.int64)
     last = np.cumsum(number.astype(np.int64))
     for begin in range(0, int(last[-1]), BATCH):

@@ -11,6 +11,7 @@ import numpy as np
 
 from mpmgeo.bodies.body import Body
 from mpmgeo.bodies.cloud import Cloud
+from mpmgeo.bodies.lattice import too_many
 from mpmgeo.parameters import Counts, Placed, parameter
 from mpmgeo.positions import resolution
 
@@ -73,8 +74,8 @@ class Gmsh(Body, Placed):
         try:
             unknown = list(self._unknown(self._mesh))
             yield from unknown
-            if not unknown:
-                _ = self._volumes
+            if not unknown and (message := too_many(self.demand(cell)[0])):
+                yield ("particles_per_direction",), message
         except ValueError as error:
             yield ("mesh_file",), str(error)
 
@@ -103,10 +104,13 @@ class Gmsh(Body, Placed):
             yield ("physical_to_material", name), text
 
     def demand(self, cell: np.ndarray) -> tuple[float, float]:
-        """Return how many particles fill the elements with per_cell, twice."""
+        """Return how many particles fill the elements with per_cell, 0 otherwise; as positions too.
+
+        Raises ValueError if the file is wrong.
+        """
+        pieces = [piece for volume in self._volumes.values() for piece in volume.pieces]
         if self.particle_distribution != "per_cell":
             return 0.0, 0.0
-        pieces = [piece for volume in self._volumes.values() for piece in volume.pieces]
         spacing = cell / self.particles_per_direction
         number = sum(float(piece.volume.sum()) for piece in pieces) / float(spacing.prod())
         return number, number

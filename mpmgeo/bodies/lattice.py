@@ -12,6 +12,16 @@ ROUND_OFF = 1e-9
 MOST_POSITIONS = 10**9
 
 
+def too_many(number: float) -> str | None:
+    """Return that a number of particle positions is too large, None if it is not."""
+    if number <= MOST_POSITIONS:
+        return None
+    return (
+        f"the body needs about {number:.3g} particle positions, "
+        f"more than the {MOST_POSITIONS:.0e} that fit"
+    )
+
+
 @dataclass(frozen=True)
 class Lattice:
     """Candidate particle positions: `cells` boxes of edges `cell`, `per_cell` positions in each.
@@ -37,11 +47,8 @@ class Lattice:
         """
         ratios = [float(e) / float(c) for e, c in zip(extent, cell, strict=True)]
         number = prod(max(ratio, 1.0) for ratio in ratios) * prod(map(float, per_cell))
-        if number > MOST_POSITIONS:
-            raise ValueError(
-                f"the body needs about {number:.3g} particle positions, "
-                f"more than the {MOST_POSITIONS:.0e} that fit"
-            )
+        if message := too_many(number):
+            raise ValueError(message)
         start, extent, cell = (np.array(list(a), dtype=np.float64) for a in (start, extent, cell))
         slack = np.maximum(ROUND_OFF * extent, resolution(zero, start, start + extent))
         cells = tuple(max(1, ceil(n)) for n in (extent - slack) / cell)
