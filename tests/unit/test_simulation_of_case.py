@@ -61,7 +61,8 @@ def test_output_interval_of_an_automatic_step_of_mpm_geomechanics():
     case = two_blocks(time=0.04, compatibility="mpm-geomechanics", results={"print": 4})
     del case["time_step"]
     case |= {"critical_time_step_multiplier": 0.1, "materials": [water, water | {"id": 9}]}
-    case["mesh"] = case["mesh"] | {"cells_dimension": [0.1, 0.1, 0.1]}
+    cells = {"cells_dimension": [0.1, 0.1, 0.1], "cells_number": [30, 30, 50]}
+    case["mesh"] = case["mesh"] | cells
     assert simulate(case).output_interval == 50
 
 
