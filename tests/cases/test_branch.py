@@ -9,7 +9,7 @@ from assembly import two_blocks
 
 import mpmgeo
 from mpmgeo import cli
-from mpmgeo.state.snapshot import read_snapshot
+from mpmgeo.state.snapshot import StoredSnapshot
 
 MOON = {"gravity": [0, 0, -1.6]}
 EARTH = {"gravity": [0, 0, -9.8]}
@@ -70,7 +70,7 @@ def test_later_snapshots_record_the_changes(snapshot):
     weak["materials"][1]["young"] = 1e6
     second = mpmgeo.Simulation.resume("moon.npz", weak, allow=["materials[1].young"])
     second.save("weak.npz")
-    changes = read_snapshot("weak.npz").facts["changes"]
+    changes = StoredSnapshot("weak.npz").facts["changes"]
     assert [change["steps"] for change in changes] == [20, 25]
     assert changes[0]["values"] == {"gravity[2]": [-9.8, -1.6]}
     assert changes[1]["values"] == {"materials[1].young": [2e6, 1e6]}
@@ -78,7 +78,7 @@ def test_later_snapshots_record_the_changes(snapshot):
 
 
 def test_a_run_without_changes_records_none(snapshot):
-    assert read_snapshot(snapshot).facts["changes"] == []
+    assert StoredSnapshot(snapshot).facts["changes"] == []
     assert mpmgeo.Simulation.resume(snapshot, allow=["gravity"]).changes == []
 
 
