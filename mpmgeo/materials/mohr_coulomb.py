@@ -31,6 +31,7 @@ from mpmgeo.materials import mohr_coulomb_legacy
 from mpmgeo.materials.elastic import Elastic, hooke
 from mpmgeo.materials.law import update_stress
 from mpmgeo.materials.mohr_coulomb_return import cut_off, flow_number, return_to_surface
+from mpmgeo.materials.opening import opening_on_axes
 from mpmgeo.materials.rotation import objective_rate
 from mpmgeo.numerics.dispatch import generic
 from mpmgeo.numerics.tensors import invariants, on_same_axes, principal
@@ -47,7 +48,7 @@ class Constant(NamedTuple):
     σc: float
     T: float
 
-    STATE = ("plastic_strain",)
+    STATE = ("plastic_strain", "opening")
 
 
 class Softening(NamedTuple):
@@ -67,7 +68,7 @@ class Softening(NamedTuple):
     T: float
     T_loss: float
 
-    STATE = ("plastic_strain",)
+    STATE = ("plastic_strain", "opening")
 
 
 class Undrained(NamedTuple):
@@ -84,7 +85,7 @@ class Undrained(NamedTuple):
     T: float
     T_loss: float
 
-    STATE = ("plastic_strain",)
+    STATE = ("plastic_strain", "opening")
 
 
 SOFTENING = ("friction", "dilation", "cohesion", "tensile")
@@ -260,19 +261,28 @@ def undrained(law, zz, εp):
 @update_stress.register(Undrained)
 def mohr_coulomb(law, stress, strain, state, dt):
     trial = hooke(law, stress, strain)
-    N, M, σc, T = strength(law, trial[2], state[0])
+    εp, θ = state
+    N, M, σc, T = strength(law, trial[2], εp)
     m, s = invariants(trial)
     # whatever the directions: s₃ ≤ m + 2s, and N s₃ − s₁ ≤ (N − 1) m + 2s √(N² + N + 1)
-    if (N - 1.0) * m + s * (2.0 * N + 1.5) <= σc and m + 2.0 * s <= T:
+    if θ == 0.0 and (N - 1.0) * m + s * (2.0 * N + 1.5) <= σc and m + 2.0 * s <= T:
         return trial + state
     p = principal(trial)
-    s1, s2, s3 = p[0], p[1], p[2]
+    o1, o2, o3 = opening_on_axes(law, p[0], p[1], p[2], θ)
+    q = law.λ * θ
+    s1, s2, s3 = p[0] + q + law.G2 * o1, p[1] + q + law.G2 * o2, p[2] + q + law.G2 * o3
     if N * s3 - s1 <= σc and s3 <= T:
-        return trial + state
+        return trial + state if θ == 0.0 else on_same_axes(p, s1, s2, s3) + (εp, 0.0)
     y1, y2, y3 = return_to_surface(s1, s2, s3, law.ν / (1.0 - law.ν), N, M, σc, T)
     d1, d2, d3 = s1 - y1, s2 - y2, s3 - y3
-    # |C d|² for the drop d of the principal stresses and the compliance C
-    tr, k = law.ν * (d1 + d2 + d3), 1.0 + law.ν
-    ε1, ε2, ε3 = k * d1 - tr, k * d2 - tr, k * d3 - tr
-    εp = sqrt(2.0 / 3.0 * (ε1 * ε1 + ε2 * ε2 + ε3 * ε3)) / law.E
-    return on_same_axes(p, y1, y2, y3) + (state[0] + εp,)
+    # the plastic strain: the compliance times the drop of the principal stresses
+    tr, k, w = law.ν * (d1 + d2 + d3), 1.0 + law.ν, 1.0 / law.E
+    ε1, ε2, ε3 = w * (k * d1 - tr), w * (k * d2 - tr), w * (k * d3 - tr)
+    wide = 0.0
+    if y3 == T:
+        # shear shortens the other axes, and lengthens by M times as much
+        wide = max(ε1 + ε2 + ε3 - (M - 1.0) * (max(-ε1, 0.0) + max(-ε2, 0.0)), 0.0)
+    q = min(wide / θ, 1.0) if θ > 0.0 else 0.0  # what was open and still is flows in no sense
+    ε1, ε2, ε3 = ε1 - q * o1, ε2 - q * o2, ε3 - q * o3
+    εp += sqrt(2.0 / 3.0 * (ε1 * ε1 + ε2 * ε2 + ε3 * ε3))
+    return on_same_axes(p, y1, y2, y3) + (εp, wide)

@@ -34,7 +34,7 @@ class Tearing(NamedTuple):
     μ: float
     T: float
 
-    STATE = ("void",)
+    STATE = ("opening",)
 
 
 @dataclass(frozen=True)

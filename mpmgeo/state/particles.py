@@ -21,6 +21,10 @@ ARRAYS = (
 """Fields of a set that are arrays, if they are there, with a row for each particle."""
 
 
+OPENING = "opening"
+"""Variable of laws that let tension open the material: the strain by which it is open."""
+
+
 class Population(NamedTuple):
     """What is fixed about all particles of a case, in row order."""
 
@@ -42,7 +46,7 @@ class ParticleSet:
     x: np.ndarray  # (n, 3) position in the mesh [m]
     v: np.ndarray  # (n, 3) velocity [m/s]
     m: np.ndarray  # (n,) mass [kg]
-    V: np.ndarray  # (n,) volume [m³]
+    V: np.ndarray  # (n,) volume without openings [m³]
     stress: np.ndarray  # (n, 6) effective stress [Pa]
     half: object  # half-sizes in cells: one triple, or (n, 3)
     rotation: object = None  # objective rate: how stress follows rotation
@@ -66,6 +70,17 @@ class ParticleSet:
         self.place = None  # for loops, see `lie_in`
         self.start = np.array([0, len(self.row)])  # one heap, until the first sort
         self.chunk = cut(self.start)
+
+    @property
+    def confined(self):
+        """Return the masses if the law lets tension open the material, which they bound."""
+        return self.m if OPENING in self.law.STATE else None
+
+    def volume(self, at=slice(None)):
+        """Return the volumes [m³] of the particles `at`, with what tension has opened."""
+        if OPENING not in self.law.STATE:
+            return self.V[at]
+        return self.V[at] * np.exp(self.state[at, self.law.STATE.index(OPENING)])
 
     def lie_in(self, grid):
         """Note where the particles lie in the blocks of a grid, for loops over them.

@@ -15,10 +15,12 @@ from typing import NamedTuple
 import numpy as np
 
 from mpmgeo.boundaries.planes import FIXED, SLIDING
+from mpmgeo.mpm.core.opening import confine
 from mpmgeo.mpm.core.point import advance
 from mpmgeo.mpm.schemes import musl, usf, usl
 from mpmgeo.numerics.jit import compiled, inlined
 from mpmgeo.shapes.shape import stencil, width
+from mpmgeo.state.particles import OPENING
 
 ZERO = (0.0, 0.0, 0.0)
 
@@ -26,6 +28,7 @@ ZERO = (0.0, 0.0, 0.0)
 class Box(NamedTuple):
     """The mesh, and how many rows of nodes the dense grid has around it."""
 
+    mesh: tuple
     cell: tuple
     cells: tuple
     ghosts: int
@@ -137,10 +140,11 @@ def held(free, n, a):
 
 
 @compiled
-def gather(shape, box, law, rotation, rows, half, x, v, material, A, drift, U, dt, h):
+def gather(shape, box, law, rotation, rows, half, x, v, m, material, M, A, drift, U, dt, h):
     """Change v by the nodal A, move x with `drift`, strain with U; what is None is left out.
 
-    `law` None: no strain; `material`: volumes, stresses, variables of the law.
+    `law` None: no strain; `m` None: it never opens; `material`: volumes, stresses, variables of the
+    law.
     """
     S = width(shape)
     for p in rows:
@@ -148,6 +152,7 @@ def gather(shape, box, law, rotation, rows, half, x, v, material, A, drift, U, d
         J, wy = stencil_along(1, shape, box, half, x, p)
         K, wz = stencil_along(2, shape, box, half, x, p)
         a = u = dx = dy = dz = ZERO
+        mass = 0.0
         for i in range(S):
             for j in range(S):
                 for k in range(S):
@@ -161,21 +166,24 @@ def gather(shape, box, law, rotation, rows, half, x, v, material, A, drift, U, d
                         gx, gy, gz = slopes(wx, wy, wz, i, j, k, box.cell)
                         nodal = vector(U, n)
                         dx, dy, dz = plus(dx, gx, nodal), plus(dy, gy, nodal), plus(dz, gz, nodal)
+                        mass += w * M[n]
+        if law is not None:
+            V, stress, state = material
+            confine(law, box.mesh, x, mass, m, V, state, p)
+            strain(law, rotation, dx, dy, dz, V, stress, state, p, dt)
         for c in range(3):
             v[p, c] += h * a[c]
             x[p, c] += dt * u[c]
-        if law is not None:
-            strain(law, rotation, dx, dy, dz, material, p, dt)
 
 
 @inlined
-def strain(law, rotation, dx, dy, dz, material, p, dt):
+def strain(law, rotation, dx, dy, dz, V, stress, state, p, dt):
     """Update the material of particle p; `dx` … are the columns of its velocity gradient."""
     x, y, z = plus(ZERO, dt, dx), plus(ZERO, dt, dy), plus(ZERO, dt, dz)
     xy, yz, xz = 0.5 * (x[1] + y[0]), 0.5 * (y[2] + z[1]), 0.5 * (z[0] + x[2])
     ε = x[0], y[1], z[2], xy, yz, xz
     W = 0.5 * (y[0] - x[1]), 0.5 * (z[1] - y[2]), 0.5 * (z[0] - x[2])
-    advance(law, rotation, ε, W, *material, None, p, dt)
+    advance(law, rotation, ε, W, V, stress, state, None, p, dt)
 
 
 @compiled
@@ -220,7 +228,7 @@ class PlainSolver:
         self.local = solver.damping[0].α if solver.damping else None
         self.cutoff = solver.cutoff
         mesh = solver.grid.mesh
-        self.box = Box(mesh[:3], mesh[6:], ghosts=(width(solver.shape) + 1) // 2)
+        self.box = Box(mesh, mesh[:3], mesh[6:], ghosts=(width(solver.shape) + 1) // 2)
         self.free = free_components(self.box, solver.planes)
         self.M = np.zeros(self.free.shape[:3])
         self.P, self.F, self.U, self.A = (np.zeros_like(self.free) for _ in range(4))
@@ -246,6 +254,15 @@ class PlainSolver:
         for s, state in zip(solver.sets, self.state, strict=True):
             if s.state is not None:
                 state[s.row] = s.state
+
+    @property
+    def volume(self):
+        """Return the volumes (n,) with what tension has opened [m³]."""
+        open_by = np.zeros(len(self.V))
+        for (law, _, _), state in zip(self.sets, self.state, strict=True):
+            if OPENING in law.STATE:
+                open_by += state[:, law.STATE.index(OPENING)]
+        return self.V * np.exp(open_by)
 
     def step(self):
         """Advance by one time step; the first one changes velocities by half a step."""
@@ -291,8 +308,9 @@ class PlainSolver:
 
     def _gather(self, h, A, drift, strains=False):
         for (law, rotation, rows), state in zip(self.sets, self.state, strict=True):
+            m = self.m if OPENING in law.STATE else None
             gather(
                 *(self.shape, self.box, law if strains else None, rotation, rows, self.half),
-                *(self.x, self.v, (self.V, self.stress, state), A, drift, self.U),
+                *(self.x, self.v, m, (self.V, self.stress, state), self.M, A, drift, self.U),
                 *(self.time_step, h),
             )

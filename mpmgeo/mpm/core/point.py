@@ -5,6 +5,7 @@ from numba.np.unsafe.ndarray import to_fixed_tuple
 
 from mpmgeo.materials.law import update_stress
 from mpmgeo.materials.rotation import rotate_stress
+from mpmgeo.mpm.core.opening import opening
 from mpmgeo.numerics.jit import INLINED, inlined
 from mpmgeo.numerics.simd import add, lane, load_column, load_row, pack, scale, with_velocity
 
@@ -89,10 +90,10 @@ def _compiled_keep_state(law, state, p, new):
 def advance(law, rotation, strain, spin, V, stress, state, total, p, dt):
     """Update volume, stress and the law's variables of particle p for a strain increment.
 
-    `rotation` None, or the objective rate by which the old stress follows the spin increment.
+    The volume is that without openings, see `mpm.core.opening`. `rotation` None, or the objective
+    rate by which the old stress follows the spin increment.
     `total` None, or the strains, to which the increment is added.
     """
-    V[p] *= 1.0 + (strain[0] + strain[1] + strain[2])
     if total is not None:
         for a in range(6):
             total[p, a] += strain[a]
@@ -101,4 +102,7 @@ def advance(law, rotation, strain, spin, V, stress, state, total, p, dt):
     new = update_stress(law, old, strain, _state_of(law, state, p), dt)
     for a in range(6):
         stress[p, a] = new[a]
+    was_open = opening(law, state, p)
     _keep_state(law, state, p, new)
+    opened = opening(law, state, p) - was_open
+    V[p] *= 1.0 + (strain[0] + strain[1] + strain[2]) - opened

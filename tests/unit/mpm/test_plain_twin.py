@@ -11,7 +11,7 @@ from mpmgeo.shapes import SHAPES
 from mpmgeo.verify.plain import PlainSolver
 
 STEPS = 30
-FIELDS = {"position": "x", "velocity": "v", "stress": "stress", "volume": "V"}
+FIELDS = {"position": "x", "velocity": "v", "stress": "stress", "volume": "volume"}
 
 
 def scene(**keys):

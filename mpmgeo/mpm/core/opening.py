@@ -1,0 +1,76 @@
+"""How far a particle is open, and that it is so by no more than the space around it is empty.
+
+A law that has `opening` among its variables keeps the strain θ by which tension has opened the
+material (`materials/opening.py`). V is the volume without openings, that with them is V e^θ. The
+velocities of nodes that few particles reach tell less of the space between particles than of their
+own noise, and what has opened in them would close by squeezing the particles together. So the mass
+around a particle bounds what is open:
+
+    θ ≤ max(0, −ln φ),    φ = (V/m) Σ S mᵢ/Σ S Vᵢ
+
+Vᵢ is the volume of a node, half a cell and less at the sides of the mesh. Source: ours.
+"""
+
+from math import log
+
+from numba.extending import overload
+
+from mpmgeo.numerics.jit import INLINED, inlined
+from mpmgeo.state.particles import OPENING
+
+
+def opening(law, state, p):
+    """Return the strain by which particle p is open, 0 for a law that never opens."""
+    return state[p, law.STATE.index(OPENING)] if OPENING in law.STATE else 0.0
+
+
+@overload(opening, jit_options=INLINED)
+def _compiled_opening(law, state, p):
+    names = law.instance_class.STATE
+    if OPENING not in names:
+        return lambda law, state, p: 0.0
+    column = names.index(OPENING)
+    return lambda law, state, p: state[p, column]
+
+
+def _close(law, state, p, most):
+    """Let particle p be open by no more than `most`."""
+    column = law.STATE.index(OPENING)
+    state[p, column] = min(state[p, column], most)
+
+
+@overload(_close, jit_options=INLINED)
+def _compiled_close(law, state, p, most):
+    column = law.instance_class.STATE.index(OPENING)
+
+    def close(law, state, p, most):
+        state[p, column] = min(state[p, column], most)
+
+    return close
+
+
+@inlined
+def confine(law, mesh, x, mass, m, V, state, p):
+    """Let particle p be open by no more than the space around it is empty.
+
+    `mass`: Σ S mᵢ [kg], `m`: the masses of the particles, None for a law that never opens.
+    """
+    if m is not None:
+        if opening(law, state, p) > 0.0:
+            filled = mass * V[p] / (m[p] * space(mesh, x, p))
+            _close(law, state, p, max(-log(filled), 0.0))
+
+
+@inlined
+def space(mesh, x, p):
+    """Return Σ S Vᵢ [m³], the volume of the nodes around particle p, with linear weights."""
+    X = _inside(x[p, 0] * mesh.ix, mesh.nx)
+    Y = _inside(x[p, 1] * mesh.iy, mesh.ny)
+    Z = _inside(x[p, 2] * mesh.iz, mesh.nz)
+    return mesh.hx * mesh.hy * mesh.hz * X * Y * Z
+
+
+@inlined
+def _inside(g, n):
+    """Return which share of the two nodes at g, in an axis of n cells, lies in the mesh."""
+    return 1.0 - 0.5 * (max(1.0 - g, 0.0) + max(g - n + 1.0, 0.0))
