@@ -268,21 +268,28 @@ def mohr_coulomb(law, stress, strain, state, dt):
     if θ == 0.0 and (N - 1.0) * m + s * (2.0 * N + 1.5) <= σc and m + 2.0 * s <= T:
         return trial + state
     p = principal(trial)
-    o1, o2, o3 = opening_on_axes(law, p[0], p[1], p[2], θ)
-    q = law.λ * θ
-    s1, s2, s3 = p[0] + q + law.G2 * o1, p[1] + q + law.G2 * o2, p[2] + q + law.G2 * o3
-    if N * s3 - s1 <= σc and s3 <= T:
-        return trial + state if θ == 0.0 else on_same_axes(p, s1, s2, s3) + (εp, 0.0)
-    y1, y2, y3 = return_to_surface(s1, s2, s3, law.ν / (1.0 - law.ν), N, M, σc, T)
-    d1, d2, d3 = s1 - y1, s2 - y2, s3 - y3
-    # the plastic strain: the compliance times the drop of the principal stresses
-    tr, k, w = law.ν * (d1 + d2 + d3), 1.0 + law.ν, 1.0 / law.E
-    ε1, ε2, ε3 = w * (k * d1 - tr), w * (k * d2 - tr), w * (k * d3 - tr)
+    s1, s2, s3 = p[0], p[1], p[2]
+    o1 = o2 = o3 = 0.0
+    if θ > 0.0:
+        o1, o2, o3 = opening_on_axes(law, s1, s2, s3, θ)
+        q = law.λ * θ
+        s1, s2, s3 = s1 + q + law.G2 * o1, s2 + q + law.G2 * o2, s3 + q + law.G2 * o3
+    is_beyond = N * s3 - s1 > σc or s3 > T
+    if θ == 0.0 and not is_beyond:
+        return trial + state
     wide = 0.0
-    if y3 == T:
-        # shear shortens the other axes, and lengthens by M times as much
-        wide = max(ε1 + ε2 + ε3 - (M - 1.0) * (max(-ε1, 0.0) + max(-ε2, 0.0)), 0.0)
-    q = min(wide / θ, 1.0) if θ > 0.0 else 0.0  # what was open and still is flows in no sense
-    ε1, ε2, ε3 = ε1 - q * o1, ε2 - q * o2, ε3 - q * o3
-    εp += sqrt(2.0 / 3.0 * (ε1 * ε1 + ε2 * ε2 + ε3 * ε3))
-    return on_same_axes(p, y1, y2, y3) + (εp, wide)
+    if is_beyond:
+        y1, y2, y3 = return_to_surface(s1, s2, s3, law.ν / (1.0 - law.ν), N, M, σc, T)
+        d1, d2, d3 = s1 - y1, s2 - y2, s3 - y3
+        s1, s2, s3 = y1, y2, y3
+        # the plastic strain: the compliance times the drop of the principal stresses
+        tr, k, w = law.ν * (d1 + d2 + d3), 1.0 + law.ν, 1.0 / law.E
+        ε1, ε2, ε3 = w * (k * d1 - tr), w * (k * d2 - tr), w * (k * d3 - tr)
+        if y3 == T:
+            # shear shortens the other axes, and lengthens by M times as much
+            wide = max(ε1 + ε2 + ε3 - (M - 1.0) * (max(-ε1, 0.0) + max(-ε2, 0.0)), 0.0)
+        if θ > 0.0:  # what was open and still is has not flown
+            q = min(wide / θ, 1.0)
+            ε1, ε2, ε3 = ε1 - q * o1, ε2 - q * o2, ε3 - q * o3
+        εp += sqrt(2.0 / 3.0 * (ε1 * ε1 + ε2 * ε2 + ε3 * ε3))
+    return on_same_axes(p, s1, s2, s3) + (εp, wide)

@@ -14,8 +14,8 @@ after the other instead of each by itself; soil without cohesion bears nothing w
 The solver keeps the volume without openings, with which forces are computed, and does not let a
 particle be open by more than the space around it is empty (`mpm/core/opening.py`).
 
-Source: Del Piero (1989), Meccanica 24, 150–162, whose strain of fractures has the axes of the stress
-and is kept; one number for it is ours.
+Source: Del Piero (1989), Meccanica 24, 150–162, whose strain of fractures has the axes of the
+stress and is kept; one number for it is ours.
 """
 
 from mpmgeo.numerics.jit import inlined

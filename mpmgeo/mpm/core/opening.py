@@ -6,12 +6,11 @@ velocities of nodes that few particles reach tell less of the space between part
 own noise, and what has opened in them would close by squeezing the particles together. So the mass
 around a particle bounds what is open:
 
-    θ ≤ max(0, −ln φ),    φ = (V/m) Σ S mᵢ/Σ S Vᵢ
+    θ ≤ max(0, 2 (1 − φ)/(1 + φ)) ≈ −ln φ,    φ = (V/m) Σ S mᵢ/Σ S Vᵢ
 
-Vᵢ is the volume of a node, half a cell and less at the sides of the mesh. Source: ours.
+φ is the share of that space that is filled, with neighbours as dense as the particle; Vᵢ is the
+volume of a node, half a cell and less at the sides of the mesh. Source: ours.
 """
-
-from math import log
 
 from numba.extending import overload
 
@@ -56,9 +55,14 @@ def confine(law, mesh, x, mass, m, V, state, p):
     `mass`: Σ S mᵢ [kg], `m`: the masses of the particles, None for a law that never opens.
     """
     if m is not None:
-        if opening(law, state, p) > 0.0:
-            filled = mass * V[p] / (m[p] * space(mesh, x, p))
-            _close(law, state, p, max(-log(filled), 0.0))
+        _confine(law, mesh, x, mass, m, V, state, p)
+
+
+@inlined
+def _confine(law, mesh, x, mass, m, V, state, p):
+    if opening(law, state, p) > 0.0:
+        φ = mass * V[p] / (m[p] * space(mesh, x, p))
+        _close(law, state, p, max(2.0 * (1.0 - φ) / (1.0 + φ), 0.0))
 
 
 @inlined

@@ -8,6 +8,7 @@ from mpmgeo.materials.rotation import rotate_stress
 from mpmgeo.mpm.core.opening import opening
 from mpmgeo.numerics.jit import INLINED, inlined
 from mpmgeo.numerics.simd import add, lane, load_column, load_row, pack, scale, with_velocity
+from mpmgeo.state.particles import OPENING
 
 
 @inlined
@@ -71,18 +72,27 @@ def _compiled_state_of(law, state, p):
 
 
 def _keep_state(law, state, p, new):
-    """Put the law's variables, which follow the six stresses in `new`, back to particle p."""
+    """Put the law's variables, which follow the six stresses in `new`, back to particle p.
+
+    Return by how much tension has opened it, 0 for a law that never opens.
+    """
+    was = opening(law, state, p)
     if state is not None:
         state[p] = new[6:]
+    return opening(law, state, p) - was
 
 
 @overload(_keep_state, jit_options=INLINED)
 def _compiled_keep_state(law, state, p, new):
     # number by number: after a loop the compiler would count references, for every particle
-    numbers = range(len(law.instance_class.STATE))
-    lines = [f"    state[p, {n}] = new[{6 + n}]\n" for n in numbers]
+    lines, opened = ["def keep(law, state, p, new):"], "0.0"
+    for n, name in enumerate(law.instance_class.STATE):
+        if name == OPENING:
+            lines.append(f" was = state[p, {n}]")
+            opened = f"new[{6 + n}] - was"
+        lines.append(f" state[p, {n}] = new[{6 + n}]")
     scope = {}
-    exec("def keep(law, state, p, new):\n" + "".join(lines or ["    pass\n"]), scope)
+    exec("\n".join([*lines, f" return {opened}"]), scope)
     return scope["keep"]
 
 
@@ -102,7 +112,5 @@ def advance(law, rotation, strain, spin, V, stress, state, total, p, dt):
     new = update_stress(law, old, strain, _state_of(law, state, p), dt)
     for a in range(6):
         stress[p, a] = new[a]
-    was_open = opening(law, state, p)
-    _keep_state(law, state, p, new)
-    opened = opening(law, state, p) - was_open
+    opened = _keep_state(law, state, p, new)
     V[p] *= 1.0 + (strain[0] + strain[1] + strain[2]) - opened
