@@ -31,10 +31,16 @@ from mpmgeo.materials import mohr_coulomb_legacy
 from mpmgeo.materials.elastic import Elastic, hooke
 from mpmgeo.materials.law import update_stress
 from mpmgeo.materials.mohr_coulomb_return import cut_off, flow_number, return_to_surface
-from mpmgeo.materials.opening import opening_on_axes
+from mpmgeo.materials.opening import strain_of_opening
 from mpmgeo.materials.rotation import objective_rate
 from mpmgeo.numerics.dispatch import generic
-from mpmgeo.numerics.tensors import invariants, on_same_axes, principal
+from mpmgeo.numerics.tensors import (
+    invariants,
+    on_same_axes,
+    plus,
+    principal,
+    scalar_product,
+)
 from mpmgeo.parameters import parameter
 
 
@@ -267,29 +273,26 @@ def mohr_coulomb(law, stress, strain, state, dt):
     # whatever the directions: s₃ ≤ m + 2s, and N s₃ − s₁ ≤ (N − 1) m + 2s √(N² + N + 1)
     if θ == 0.0 and (N - 1.0) * m + s * (2.0 * N + 1.5) <= σc and m + 2.0 * s <= T:
         return trial + state
+    was_open = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    if θ > 0.0:
+        was_open = strain_of_opening(law, stress, θ)
+        trial = hooke(law, trial, was_open)
     p = principal(trial)
     s1, s2, s3 = p[0], p[1], p[2]
-    o1 = o2 = o3 = 0.0
-    if θ > 0.0:
-        o1, o2, o3 = opening_on_axes(law, s1, s2, s3, θ)
-        q = law.λ * θ
-        s1, s2, s3 = s1 + q + law.G2 * o1, s2 + q + law.G2 * o2, s3 + q + law.G2 * o3
-    is_beyond = N * s3 - s1 > σc or s3 > T
-    if θ == 0.0 and not is_beyond:
-        return trial + state
+    if N * s3 - s1 <= σc and s3 <= T:
+        return trial + (εp, 0.0)
+    y1, y2, y3 = return_to_surface(s1, s2, s3, law.ν / (1.0 - law.ν), N, M, σc, T)
+    d1, d2, d3 = s1 - y1, s2 - y2, s3 - y3
+    # the plastic strain: the compliance times the drop of the principal stresses
+    tr, k, w = law.ν * (d1 + d2 + d3), 1.0 + law.ν, 1.0 / law.E
+    ε1, ε2, ε3 = w * (k * d1 - tr), w * (k * d2 - tr), w * (k * d3 - tr)
     wide = 0.0
-    if is_beyond:
-        y1, y2, y3 = return_to_surface(s1, s2, s3, law.ν / (1.0 - law.ν), N, M, σc, T)
-        d1, d2, d3 = s1 - y1, s2 - y2, s3 - y3
-        s1, s2, s3 = y1, y2, y3
-        # the plastic strain: the compliance times the drop of the principal stresses
-        tr, k, w = law.ν * (d1 + d2 + d3), 1.0 + law.ν, 1.0 / law.E
-        ε1, ε2, ε3 = w * (k * d1 - tr), w * (k * d2 - tr), w * (k * d3 - tr)
-        if y3 == T:
-            # shear shortens the other axes, and lengthens by M times as much
-            wide = max(ε1 + ε2 + ε3 - (M - 1.0) * (max(-ε1, 0.0) + max(-ε2, 0.0)), 0.0)
-        if θ > 0.0:  # what was open and still is has not flown
-            q = min(wide / θ, 1.0)
-            ε1, ε2, ε3 = ε1 - q * o1, ε2 - q * o2, ε3 - q * o3
-        εp += sqrt(2.0 / 3.0 * (ε1 * ε1 + ε2 * ε2 + ε3 * ε3))
-    return on_same_axes(p, s1, s2, s3) + (εp, wide)
+    if y3 == T:
+        # shear shortens the other axes, and lengthens by M times as much
+        wide = max(ε1 + ε2 + ε3 - (M - 1.0) * (max(-ε1, 0.0) + max(-ε2, 0.0)), 0.0)
+    square = ε1 * ε1 + ε2 * ε2 + ε3 * ε3
+    if θ > 0.0:  # what was open and still is has not flown
+        flow = plus(on_same_axes(p, ε1, ε2, ε3), -min(wide / θ, 1.0), was_open)
+        square = scalar_product(flow, flow)
+    εp += sqrt(2.0 / 3.0 * square)
+    return on_same_axes(p, y1, y2, y3) + (εp, wide)

@@ -2,10 +2,12 @@
 
 A law with a tension cut-off keeps the strain θ by which tensile flow has opened the material, as
 `opening` in its `STATE`. It is strain that is still there: the next trial stress counts it as
-elastic, along the axis of the largest principal stress, which is that of the crack, and what does
-not close flows once more:
+elastic, across the axis on which the old stress is most tensile, for that is where the crack is,
+and what does not close flows once more:
 
-    s → s + λ θ + 2G o,    θ → tr εt    o: θ on that axis, εt: the tensile plastic strain from there
+    σ → σ + λ θ I + 2G O,    θ → tr εt
+
+O is θ on that axis, εt the tensile plastic strain from there.
 
 Axes on which the stress is as large share θ. So a crack bears nothing before it has closed, and
 pressure along it is none of its concern. One number is enough for several cracks, which close one
@@ -19,14 +21,16 @@ stress and is kept; one number for it is ours.
 """
 
 from mpmgeo.numerics.jit import inlined
+from mpmgeo.numerics.tensors import on_same_axes, principal
 
 EQUAL = 1e-6  # difference of two principal stresses, over 2G θ, up to which they share θ
 
 
 @inlined
-def opening_on_axes(law, s1, s2, s3, θ):
-    """Return how much of θ is on each of the axes of principal stresses s₁ ≤ s₂ ≤ s₃ [Pa]."""
+def strain_of_opening(law, stress, θ):
+    """Return the six components of the strain θ across the cracks of a stress [Pa]."""
+    p = principal(stress)
     near = EQUAL * law.G2 * θ
-    n1, n2 = 1.0 if s3 - s1 <= near else 0.0, 1.0 if s3 - s2 <= near else 0.0
+    n1, n2 = 1.0 if p[2] - p[0] <= near else 0.0, 1.0 if p[2] - p[1] <= near else 0.0
     o = θ / (1.0 + n1 + n2)
-    return n1 * o, n2 * o, o
+    return on_same_axes(p, n1 * o, n2 * o, o)
