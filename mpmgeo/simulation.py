@@ -15,7 +15,7 @@ from mpmgeo.case.load import load_case
 from mpmgeo.case.report import nearest, show
 from mpmgeo.case.spec import Case
 from mpmgeo.mpm.incidents import Unsound
-from mpmgeo.naming import PLANES
+from mpmgeo.naming import ENERGIES, PLANES
 from mpmgeo.numerics.chunks import most_threads
 from mpmgeo.numerics.jit import remarks
 from mpmgeo.output.claim import claimed
@@ -28,6 +28,7 @@ from mpmgeo.run.diagnosis import diagnose, last_stress
 from mpmgeo.run.loop import run
 from mpmgeo.run.losses import Losses
 from mpmgeo.run.snapshots import Snapshots
+from mpmgeo.run.surplus import Surplus
 from mpmgeo.run.watch import Diverged, Guard
 
 
@@ -62,6 +63,7 @@ class Simulation:
         self.changes = []  # of the case on the way, each with time, steps and values by key
         self._kept = None
         self._told = set()
+        self.assignments = 0  # how often a script has assigned values
         self._histories = histories_of(self, self.output or Path())
 
     @classmethod
@@ -132,7 +134,7 @@ class Simulation:
         cannot be written, or if another run writes into the output folder.
         """
         every = self.output_interval
-        watchers = [Guard(every), *self._files(every), Losses(), *watchers]
+        watchers = [Guard(every), Surplus(every), *self._files(every), Losses(), *watchers]
         try:
             with claimed(self.output, self.case.title):
                 run(self, self.case.time if until is None else until, watchers)
@@ -167,11 +169,15 @@ class Simulation:
         self._guarded(self.solver.step)
         self._report_events()
 
+    def tell(self, topic, messages):
+        """Keep messages for the user, which `messages()` returns, unless the topic is old."""
+        if self._once(topic):
+            for message in messages():
+                self.say(message)
+
     def _report_events(self):
         for topic, messages in self.solver.news():
-            if self._once(topic):
-                for message in messages():
-                    self.say(message)
+            self.tell(topic, messages)
         for message in remarks():
             if message not in self.messages:
                 self.say(message)
@@ -243,6 +249,14 @@ class Simulation:
         peak = self.solver.peak_energy
         return self.kinetic_energy() if peak is None else peak
 
+    def energy(self):
+        """Return the last row of the balance of energy, {column: [J]}; empty without one.
+
+        They are of the last step that is a multiple of `results.energy.every`.
+        """
+        ledger = self.solver.ledger
+        return {} if ledger is None else dict(zip(ENERGIES, map(float, ledger.row()), strict=True))
+
     def field(self, key):
         """Return a field of all particles in row order: a key of the results, position, mass, or a
         variable of a law; stress has the columns xx yy zz xy yz xz. KeyError for an unknown key."""
@@ -270,6 +284,7 @@ class Simulation:
             raise ValueError(f"{key} has the shape {shape}, not {values.shape}")
         for s in self.solver.sets:
             getattr(s, name)[:] = values[s.row]
+        self.assignments += 1
 
     def reactions(self):
         """Return the forces (3,) [N] on the material by plane, X0 … Zn, and prescribed velocity.
