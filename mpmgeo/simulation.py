@@ -63,7 +63,7 @@ class Simulation:
         self.changes = []  # of the case on the way, each with time, steps and values by key
         self._kept = None
         self._told = set()
-        self.assignments = 0  # how often a script has assigned values
+        self.changed = 0  # how often values have changed otherwise than by steps
         self._histories = histories_of(self, self.output or Path())
 
     @classmethod
@@ -90,6 +90,8 @@ class Simulation:
         take_snapshot(simulation.solver, snapshot)
         simulation._told = told
         simulation.goes_on = True
+        if changed:
+            simulation._changed()
         simulation.changes = [*snapshot.facts.get("changes", ()), *record_of(simulation, changed)]
         for remark in remarks_on(simulation, changed):
             simulation.say(remark)
@@ -167,25 +169,17 @@ class Simulation:
         if numba.get_num_threads() != self.threads:
             numba.set_num_threads(self.threads)
         self._guarded(self.solver.step)
-        self._report_events()
-
-    def tell(self, topic, messages):
-        """Keep messages for the user, which `messages()` returns, unless the topic is old."""
-        if self._once(topic):
-            for message in messages():
-                self.say(message)
-
-    def _report_events(self):
         for topic, messages in self.solver.news():
             self.tell(topic, messages)
         for message in remarks():
             if message not in self.messages:
                 self.say(message)
 
-    def _once(self, topic):
-        new = topic not in self._told
-        self._told.add(topic)
-        return new
+    def tell(self, topic, messages):
+        """Keep messages for the user, which `messages()` returns, unless the topic is old."""
+        if topic not in self._told:
+            self._told.add(topic)
+            self.messages += messages()
 
     def arrange(self):
         """Bring the particles in the order that looking for them by place needs."""
@@ -250,10 +244,7 @@ class Simulation:
         return self.kinetic_energy() if peak is None else peak
 
     def energy(self):
-        """Return the last row of the balance of energy, {column: [J]}; empty without one.
-
-        They are of the last step that is a multiple of `results.energy.every`.
-        """
+        """Return the last row of the balance of energy, {column: [J]}; empty without one."""
         ledger = self.solver.ledger
         return {} if ledger is None else dict(zip(ENERGIES, map(float, ledger.row()), strict=True))
 
@@ -284,7 +275,13 @@ class Simulation:
             raise ValueError(f"{key} has the shape {shape}, not {values.shape}")
         for s in self.solver.sets:
             getattr(s, name)[:] = values[s.row]
-        self.assignments += 1
+        self._changed()
+
+    def _changed(self):
+        """Begin a new balance of energy: values are others."""
+        self.changed += 1
+        if self.solver.ledger is not None:
+            self.solver.ledger.restart()
 
     def reactions(self):
         """Return the forces (3,) [N] on the material by plane, X0 … Zn, and prescribed velocity.

@@ -14,6 +14,7 @@ from mpmgeo.materials.law import stores_energy
 from mpmgeo.mpm.incidents import Departures, Unsound
 from mpmgeo.mpm.persistence import copy_of, state_of, take_over
 from mpmgeo.mpm.stages import Stages
+from mpmgeo.mpm.tally import tally
 from mpmgeo.mpm.task import OnePhase
 from mpmgeo.numerics.clock import Clock
 from mpmgeo.state.checked import demand, number_from, whole_from
@@ -21,7 +22,6 @@ from mpmgeo.state.grid import Grid
 from mpmgeo.state.inspection import first_unsound, kinetic_energy
 from mpmgeo.state.particles import ParticleSet, Population
 from mpmgeo.state.sorting import OPEN, sort
-from mpmgeo.state.tally import tally
 
 COUNTERS = ("time", "steps", "gone", "peak_energy")
 SMALL = 4096  # particles up to which threads cost more than they save

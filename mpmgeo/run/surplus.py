@@ -19,9 +19,6 @@ OF_TURNOVER = 0.05
 ROUND_OFF = 1e-9
 """The same of the size of the energies that are summed."""
 
-STEADY = 3
-"""Checks, one after the other, that have to agree."""
-
 FLIGHT = 0.02
 """Share of the wave speed above which flight through the cells is the likely cause."""
 
@@ -34,7 +31,7 @@ class Surplus(Watcher):
 
     def __init__(self, outputs):
         self.outputs = outputs
-        self.least, self.seen, self._assignments = inf, 0, None
+        self.least, self._changed = inf, None
 
     def begin(self, simulation):
         """Begin with the energy that there is."""
@@ -44,21 +41,20 @@ class Surplus(Watcher):
         """Look at the energy if a check is due, and tell of it."""
         if is_due(simulation, self.outputs):
             appeared, within = self._look(simulation)
-            if self.seen >= STEADY:
+            if appeared > 0.0:
                 simulation.tell("energy", lambda: [message(simulation, appeared, within)])
 
     def _look(self, simulation):
-        """Return what has appeared and what is within the bodies [J]; count checks that agree."""
+        """Return what has appeared, 0 if that is little, and what is within the bodies [J]."""
         now = simulation.solver.energies()
         if now is None:
             return 0.0, 0.0
-        if simulation.assignments != self._assignments:  # it began anew
-            self._assignments, self.least = simulation.assignments, inf
+        if simulation.changed != self._changed:  # what was before does not count
+            self._changed, self.least = simulation.changed, inf
         self.least = min(self.least, now.total)
         appeared = now.total - self.least
         enough = SHARE * now.within + OF_TURNOVER * now.turnover + ROUND_OFF * now.size
-        self.seen = self.seen + 1 if appeared > enough else 0
-        return appeared, now.within
+        return appeared if appeared > enough else 0.0, now.within
 
 
 def message(simulation, appeared, within):

@@ -69,7 +69,7 @@ class Gather(NamedTuple):
 
     Velocities change by h times the acceleration. With v None they stay, and positions follow the
     velocity that `Velocity` kept. With `law` None volume and stress stay. Arrays: v, V, stress, the
-    law's variables, sum of strains, energy that is dissipated, the last three None where there are
+    law's variables, sum of strains, work stored and dissipated, the last three None where there are
     none.
     """
 
@@ -81,12 +81,12 @@ class Gather(NamedTuple):
 
 @visit.register(Gather)
 def gather(work, here, a, p):
-    v, V, stress, state, total, lost = a
+    v, V, stress, state, total, account = a
     n, wx, wy, wz = locate(here, p)
     value, sx, sy, sz = collect(here.source, n, here.rows, wx, wy, wz)
     X = _moved(work, here.x, v, value, p)
     store_row(here.x, p, X)
-    _strained(work, work.law, here.mesh, sx, sy, sz, V, stress, state, total, lost, p)
+    _strained(work, work.law, here.mesh, sx, sy, sz, V, stress, state, total, account, p)
     return 0 if within(in_block(here.mesh, here.origin, X), here.low, here.high) else 1
 
 
@@ -101,11 +101,11 @@ def _moved(work, x, v, value, p):
 
 
 @inlined
-def _strained(work, law, mesh, sx, sy, sz, V, stress, state, total, lost, p):
+def _strained(work, law, mesh, sx, sy, sz, V, stress, state, total, account, p):
     if law is not None:
         strain = strain_increment(mesh, sx, sy, sz, work.dt)
         spin = spin_increment(mesh, sx, sy, sz, work.dt)
-        advance(law, work.rotation, strain, spin, V, stress, state, total, lost, p, work.dt)
+        advance(law, work.rotation, strain, spin, V, stress, state, total, account, p, work.dt)
 
 
 class Remap(NamedTuple):
@@ -141,10 +141,10 @@ class StrainAndForce(NamedTuple):
 
 @visit.register(StrainAndForce)
 def strain_and_force(work, here, a, p):
-    V, stress, pressure, state, total, lost = a
+    V, stress, pressure, state, total, account = a
     n, wx, wy, wz = locate(here, p)
     _, sx, sy, sz = collect(here.source, n, here.rows, wx, wy, wz)
-    _strained(work, work.law, here.mesh, sx, sy, sz, V, stress, state, total, lost, p)
+    _strained(work, work.law, here.mesh, sx, sy, sz, V, stress, state, total, account, p)
     C1, C2, C3 = internal_force(here.mesh, V, stress, pressure, p)
     deposit(here.tiles[0], here.n0 + n, here.rows, wx, wy, wz, splat(0.0), C1, C2, C3)
     return 0

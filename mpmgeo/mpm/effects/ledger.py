@@ -30,7 +30,6 @@ from mpmgeo.numerics.jit import inlined
 from mpmgeo.numerics.simd import LANES, lane, load
 from mpmgeo.state.checked import array_from
 from mpmgeo.state.layout import NODES
-from mpmgeo.state.tally import tally
 
 
 class Works(NamedTuple):
@@ -101,7 +100,7 @@ class Ledger(Effect):
         self.every = every
         self.weights = (1.5, 1.5, 0.5) if is_early else (0.5, 0.5, 0.5)
         self.sums = np.zeros(2)  # put in at nodes, damped
-        self.start = np.full(3, np.nan)  # kinetic, strain, given
+        self.start = np.full(4, np.nan)  # kinetic, strain, given; strain with that of who left
         self.figures = np.full(len(ENERGIES), np.nan)  # the last row
         self._before = self._power = None  # what the end of a step compares with
 
@@ -114,11 +113,18 @@ class Ledger(Effect):
         """Count work [J] that an effect has done on the nodes, or on the particles."""
         self.sums[0] += work
 
+    def restart(self):
+        """Begin a new balance with what there is when the next step begins."""
+        self.sums[:] = 0.0
+        self.start[:] = self.figures[:] = np.nan
+        for s in self.solver.sets:
+            s.work[:] = 0.0
+
     def row(self):
         """Return the figures of the last row; before the first step those of the start."""
         if self.solver.steps == 0:
-            strain, _, _, _ = self._levels()
-            return self._row(self.solver.kinetic_energy(), strain, 0.0, 0.0)
+            kinetic, strain = self.solver.kinetic_energy(), self.solver.tally().strain.sum()
+            return kinetic, float(strain), 0.0, 0.0, 0.0, 0.0
         return self.figures
 
     def energies(self, within):
@@ -132,10 +138,13 @@ class Ledger(Effect):
     def begin(self, solver, h):
         """Note what there is before the step."""
         due = (solver.steps + 1) % self.every == 0
-        if due or solver.steps == 0:
+        begins = bool(np.isnan(self.start[0]))
+        if begins:
+            self.start[3] = sum(solver.tally(left).strain.sum() for left in (False, True))
+        if due or begins:
             *self._before, self._power = self._levels()
-        if solver.steps == 0:
-            self.start[:] = solver.kinetic_energy(), self._before[0], self._before[2]
+        if begins:
+            self.start[:3] = solver.kinetic_energy(), self._before[0], self._before[2]
 
     def before_nodes(self, solver, task):
         """Note what is done at the nodes."""
@@ -171,9 +180,9 @@ class Ledger(Effect):
         solver.clock.lap(self.name)
 
     def _row(self, kinetic, strain, plastic, given):
-        start = self.start if self.solver.steps else (kinetic, strain, given)
-        external, damping = self.sums[0] + given - start[2], self.sums[1]
-        balance = kinetic + strain + plastic + damping - external - (start[0] + start[1])
+        external, damping = self.sums[0] + given - self.start[2], self.sums[1]
+        start = self.start[0] + self.start[1]
+        balance = kinetic + strain + plastic + damping - external - start
         return kinetic, strain, external, plastic, damping, balance
 
     def _levels(self):
@@ -183,9 +192,10 @@ class Ledger(Effect):
         """
         s = self.solver
         here, gone = s.tally(), s.tally(left=True)
-        given = here.potential + gone.potential - gone.kinetic - gone.strain
-        plastic = sum(float(part.lost.sum()) for part in s.sets)
-        return float(here.strain.sum()), plastic, float(given.sum()), float(here.power.sum())
+        stored, dissipated = sum(part.work.sum(axis=0) for part in s.sets)
+        given = (here.potential + gone.potential - gone.kinetic - gone.strain).sum()
+        strain = self.start[3] + stored - gone.strain.sum()
+        return float(strain), float(dissipated), float(given), float(here.power.sum())
 
     def held(self):
         """Return the sums, what there was at the start, and the last row."""

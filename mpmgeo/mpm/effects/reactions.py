@@ -99,6 +99,7 @@ def nothing_holds(work, a, b, bounded):
 
 @inlined
 def has_driven(model, driven, b):
+    """Tell whether nodes of block b have a prescribed velocity."""
     if model is None:
         return False
     return driven[0][b * NODES : (b + 1) * NODES].max() >= 0
