@@ -19,6 +19,9 @@ OF_TURNOVER = 0.05
 ROUND_OFF = 1e-9
 """The same of the size of the energies that are summed."""
 
+SMALL = 0.1
+"""Share of the critical time step with which a vibration in flight hardly grows."""
+
 FLIGHT = 0.02
 """Share of the wave speed above which flight through the cells is the likely cause."""
 
@@ -80,6 +83,7 @@ def _cause(simulation):
     if case.stress_scheme_update != "USL" and speed > FLIGHT * wave:
         return (
             f"likely cause: {case.stress_scheme_update}, which lets a body that flies through the "
-            f"cells vibrate more and more (its speed is {speed:.3g} m/s); try USL"
+            f"cells vibrate more and more (its speed is {speed:.3g} m/s); try a time step of "
+            f"{SMALL * critical:.2g} s, or USL, which damps vibrations"
         )
     return f"likely causes: the time step of {dt:.4g} s, or a law whose flow creates energy"
