@@ -31,6 +31,9 @@ from mpmgeo.numerics.simd import LANES, lane, load
 from mpmgeo.state.checked import array_from
 from mpmgeo.state.layout import NODES
 
+DIVERGING = np.errstate(over="ignore", invalid="ignore")
+"""Of a run that diverges the guard tells, not every sum."""
+
 
 class Works(NamedTuple):
     """Sum the work that planes, prescribed velocities and damping have done in another work.
@@ -135,6 +138,7 @@ class Ledger(Effect):
         turnover = plastic + damping + abs(self.sums[0])
         return Energies(balance, within, turnover, abs(external) + self.figures[0])
 
+    @DIVERGING
     def begin(self, solver, h):
         """Note what there is before the step."""
         due = (solver.steps + 1) % self.every == 0
@@ -150,6 +154,7 @@ class Ledger(Effect):
         """Note what is done at the nodes."""
         self._task = task
 
+    @DIVERGING
     def after_nodes(self, solver, h):
         """Sum the work of planes and tools that move, and of damping."""
         task, self._task = self._task, None
@@ -160,10 +165,12 @@ class Ledger(Effect):
             self.sums += out.sum(axis=0)
             solver.clock.lap(self.name)
 
+    @DIVERGING
     def stopped(self, solver):
         """Count what was taken from the particles."""
         self.sums[1] += solver.peak_energy - solver.kinetic_energy()
 
+    @DIVERGING
     def end(self, solver):
         """Make a row if one is due."""
         due = solver.steps % self.every == 0
@@ -192,7 +199,7 @@ class Ledger(Effect):
         """
         s = self.solver
         here, gone = s.tally(), s.tally(left=True)
-        stored, dissipated = sum(part.work.sum(axis=0) for part in s.sets)
+        stored, dissipated = sum((part.work.sum(axis=0) for part in s.sets), np.zeros(2))
         given = (here.potential + gone.potential - gone.kinetic - gone.strain).sum()
         strain = self.start[3] + stored - gone.strain.sum()
         return float(strain), float(dissipated), float(given), float(here.power.sum())
