@@ -6,7 +6,6 @@ from scenes import cuboid, scene, simulate
 
 import mpmgeo
 from mpmgeo.verify import limits
-from mpmgeo.verify.bar import Bar
 
 CELL = limits.CELL
 
@@ -67,13 +66,18 @@ def test_nothing_is_told_of_bodies_that_fall_bounce_and_meet(scheme):
 
 
 def test_a_step_above_the_limit_is_blamed_first():
-    """After 50 steps; after 60 the run diverges."""
-    bar = Bar(velocity_peak=1e-9)
     with pytest.warns(mpmgeo.CaseWarning, match="exceeds the critical"):
-        simulation = simulate(bar.case(25, "MUSL", 4 * bar.period, courant=2.0))
-    bar.start(simulation)
-    simulation.run(watchers=[limits.Heard(stops=True)])
+        simulation, _, _ = flown("MUSL", 0.3, critical_time_step_multiplier=1.4)
     assert "likely cause: the time step of" in told(simulation)[0]
+
+
+@pytest.mark.parametrize("scheme", ["USL", "MUSL", "USF"])
+def test_nothing_is_told_of_the_first_steps_of_an_impact(scheme):
+    """Although the energies are compared after every step."""
+    body = cuboid((0, 0, 0), (0.4, 0.4, 0.4), initial_velocity=[0, 0, -3])
+    keys = {"stress_scheme_update": scheme, "time": 0.2, "results": {"print": 0}}
+    keys["results"]["material_point_results"] = ["none"]
+    assert not told(simulate(scene([6, 6, 6], CELL, [body], **keys)).run())
 
 
 def test_where_work_is_done_unseen_only_a_balance_can_tell():
