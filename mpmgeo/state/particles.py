@@ -14,7 +14,7 @@ from mpmgeo.state.checked import array_from, demand
 from mpmgeo.state.grid import cut
 
 ARRAYS = (
-    *("row", "x", "v", "m", "V", "stress", "half", "force", "state", "pressure", "strain"),
+    *("row", "x", "v", "m", "V", "stress", "half", "force", "state", "pressure", "strain", "work"),
     *("mf", "vf", "pf", "free", "pull"),
     *("due", "contact"),
 )
@@ -23,6 +23,11 @@ ARRAYS = (
 
 OPENING = "opening"
 """Variable of laws that let tension open the material: the strain by which it is open."""
+
+
+def column_of_opening(law):
+    """Return which of a law's variables that is, None for a law that never opens."""
+    return law.STATE.index(OPENING) if OPENING in law.STATE else None
 
 
 class Population(NamedTuple):
@@ -54,6 +59,7 @@ class ParticleSet:
     state: np.ndarray | None = None  # (n, k) variables of the law
     pressure: np.ndarray | None = None  # (n,) given pore pressure [Pa], compression positive
     strain: np.ndarray | None = None  # (n, 6) sum of the strain increments [-]
+    work: np.ndarray | None = None  # (n, 2) stored and dissipated of the work of stresses [J]
     due: np.ndarray | None = None  # (n,) when to look for contact, see `mpm.touch`; −1 in contact
     contact: np.ndarray | None = None  # (n, …) forces and shift of contact, see `mpm.terrain`
     tool: int | None = None  # number of the prescribed velocity that the particles have
@@ -72,15 +78,18 @@ class ParticleSet:
         self.chunk = cut(self.start)
 
     @property
-    def confined(self):
-        """Return the masses if the law lets tension open the material, which they bound."""
-        return self.m if OPENING in self.law.STATE else None
+    def material(self):
+        """Return what an update of the material needs: V, stress, m, state, strain, work.
+
+        The masses only where they bound what tension opens.
+        """
+        m = None if column_of_opening(self.law) is None else self.m
+        return self.V, self.stress, m, self.state, self.strain, self.work
 
     def volume(self, at=slice(None)):
         """Return the volumes [m³] of the particles `at`, with what tension has opened."""
-        if OPENING not in self.law.STATE:
-            return self.V[at]
-        return self.V[at] * np.exp(self.state[at, self.law.STATE.index(OPENING)])
+        column = column_of_opening(self.law)
+        return self.V[at] if column is None else self.V[at] * np.exp(self.state[at, column])
 
     def lie_in(self, grid):
         """Note where the particles lie in the blocks of a grid, for loops over them.

@@ -52,7 +52,10 @@ def column(aspect_ratio: float, **keys) -> dict:
 
 
 def area(simulation) -> float:
-    """Return the area [m²] in which the nodes' density, linear between them, is above one half."""
+    """Return the area [m²] under the surface, up to which the density of the nodes is one half.
+
+    The density is taken as linear between the nodes.
+    """
     nodes, mesh = simulation.nodes(), simulation.case.mesh
     x, _, z = mesh.cells_number
     i, k = np.rint((nodes.position / mesh.cells_dimension)[:, [0, 2]].T).astype(int)
@@ -61,8 +64,9 @@ def area(simulation) -> float:
     np.add.at(density, (i[inside], k[inside]), nodes.mass[inside] / (DENSITY * CELL**3))
     density[0] *= 2  # a node at the wall, or on the floor, has half a cell
     density[:, 0] *= 2
-    fine = _weights(x).T @ density @ _weights(z)
-    return np.count_nonzero(fine >= 0.5) * (CELL / FINE) ** 2
+    dense = _weights(x).T @ density @ _weights(z) >= 0.5
+    under = np.maximum.accumulate(dense[:, ::-1], axis=1)
+    return np.count_nonzero(under) * (CELL / FINE) ** 2
 
 
 def _weights(cells):

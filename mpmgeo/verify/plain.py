@@ -20,7 +20,7 @@ from mpmgeo.mpm.core.point import advance
 from mpmgeo.mpm.schemes import musl, usf, usl
 from mpmgeo.numerics.jit import compiled, inlined
 from mpmgeo.shapes.shape import stencil, width
-from mpmgeo.state.particles import OPENING
+from mpmgeo.state.particles import column_of_opening
 
 ZERO = (0.0, 0.0, 0.0)
 
@@ -28,7 +28,6 @@ ZERO = (0.0, 0.0, 0.0)
 class Box(NamedTuple):
     """The mesh, and how many rows of nodes the dense grid has around it."""
 
-    mesh: tuple
     cell: tuple
     cells: tuple
     ghosts: int
@@ -140,11 +139,10 @@ def held(free, n, a):
 
 
 @compiled
-def gather(shape, box, law, rotation, rows, half, x, v, m, material, M, A, drift, U, dt, h):
+def gather(shape, box, mesh, law, rotation, rows, half, x, v, m, own, M, A, drift, U, dt, h):
     """Change v by the nodal A, move x with `drift`, strain with U; what is None is left out.
 
-    `law` None: no strain; `m` None: it never opens; `material`: volumes, stresses, variables of the
-    law.
+    `law` None: no strain; `m` None: it never opens; `own`: volumes, stresses, variables of the law.
     """
     S = width(shape)
     for p in rows:
@@ -168,8 +166,8 @@ def gather(shape, box, law, rotation, rows, half, x, v, m, material, M, A, drift
                         dx, dy, dz = plus(dx, gx, nodal), plus(dy, gy, nodal), plus(dz, gz, nodal)
                         mass += w * M[n]
         if law is not None:
-            V, stress, state = material
-            confine(law, box.mesh, x, mass, m, V, state, p)
+            V, stress, state = own
+            confine(law, mesh, x, mass, m, V, state, p)
             strain(law, rotation, dx, dy, dz, V, stress, state, p, dt)
         for c in range(3):
             v[p, c] += h * a[c]
@@ -183,7 +181,7 @@ def strain(law, rotation, dx, dy, dz, V, stress, state, p, dt):
     xy, yz, xz = 0.5 * (x[1] + y[0]), 0.5 * (y[2] + z[1]), 0.5 * (z[0] + x[2])
     ε = x[0], y[1], z[2], xy, yz, xz
     W = 0.5 * (y[0] - x[1]), 0.5 * (z[1] - y[2]), 0.5 * (z[0] - x[2])
-    advance(law, rotation, ε, W, V, stress, state, None, p, dt)
+    advance(law, rotation, ε, W, V, stress, state, None, None, p, dt)
 
 
 @compiled
@@ -227,8 +225,8 @@ class PlainSolver:
         self.shape, self.time_step, self.steps = solver.shape, solver.time_step, solver.steps
         self.local = solver.damping[0].α if solver.damping else None
         self.cutoff = solver.cutoff
-        mesh = solver.grid.mesh
-        self.box = Box(mesh, mesh[:3], mesh[6:], ghosts=(width(solver.shape) + 1) // 2)
+        mesh = self.mesh = solver.grid.mesh
+        self.box = Box(mesh[:3], mesh[6:], ghosts=(width(solver.shape) + 1) // 2)
         self.free = free_components(self.box, solver.planes)
         self.M = np.zeros(self.free.shape[:3])
         self.P, self.F, self.U, self.A = (np.zeros_like(self.free) for _ in range(4))
@@ -260,8 +258,8 @@ class PlainSolver:
         """Return the volumes (n,) with what tension has opened [m³]."""
         open_by = np.zeros(len(self.V))
         for (law, _, _), state in zip(self.sets, self.state, strict=True):
-            if OPENING in law.STATE:
-                open_by += state[:, law.STATE.index(OPENING)]
+            if (column := column_of_opening(law)) is not None:
+                open_by += state[:, column]
         return self.V * np.exp(open_by)
 
     def step(self):
@@ -308,9 +306,10 @@ class PlainSolver:
 
     def _gather(self, h, A, drift, strains=False):
         for (law, rotation, rows), state in zip(self.sets, self.state, strict=True):
-            m = self.m if OPENING in law.STATE else None
+            m = None if column_of_opening(law) is None else self.m
+            own = self.V, self.stress, state
             gather(
-                *(self.shape, self.box, law if strains else None, rotation, rows, self.half),
-                *(self.x, self.v, m, (self.V, self.stress, state), self.M, A, drift, self.U),
+                *(self.shape, self.box, self.mesh, law if strains else None, rotation, rows),
+                *(self.half, self.x, self.v, m, own, self.M, A, drift, self.U),
                 *(self.time_step, h),
             )

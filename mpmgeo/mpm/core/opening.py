@@ -15,37 +15,7 @@ volume of a node, half a cell and less at the sides of the mesh. Source: ours.
 from numba.extending import overload
 
 from mpmgeo.numerics.jit import INLINED, inlined
-from mpmgeo.state.particles import OPENING
-
-
-def opening(law, state, p):
-    """Return the strain by which particle p is open, 0 for a law that never opens."""
-    return state[p, law.STATE.index(OPENING)] if OPENING in law.STATE else 0.0
-
-
-@overload(opening, jit_options=INLINED)
-def _compiled_opening(law, state, p):
-    names = law.instance_class.STATE
-    if OPENING not in names:
-        return lambda law, state, p: 0.0
-    column = names.index(OPENING)
-    return lambda law, state, p: state[p, column]
-
-
-def _close(law, state, p, most):
-    """Let particle p be open by no more than `most`."""
-    column = law.STATE.index(OPENING)
-    state[p, column] = min(state[p, column], most)
-
-
-@overload(_close, jit_options=INLINED)
-def _compiled_close(law, state, p, most):
-    column = law.instance_class.STATE.index(OPENING)
-
-    def close(law, state, p, most):
-        state[p, column] = min(state[p, column], most)
-
-    return close
+from mpmgeo.state.particles import column_of_opening
 
 
 @inlined
@@ -55,14 +25,21 @@ def confine(law, mesh, x, mass, m, V, state, p):
     `mass`: Σ S mᵢ [kg], `m`: the masses of the particles, None for a law that never opens.
     """
     if m is not None:
-        _confine(law, mesh, x, mass, m, V, state, p)
+        column = _column(law)
+        if state[p, column] > 0.0:
+            φ = mass * V[p] / (m[p] * space(mesh, x, p))
+            most = 2.0 * (1.0 - φ) / (1.0 + φ)
+            state[p, column] = min(state[p, column], max(most, 0.0))
 
 
-@inlined
-def _confine(law, mesh, x, mass, m, V, state, p):
-    if opening(law, state, p) > 0.0:
-        φ = mass * V[p] / (m[p] * space(mesh, x, p))
-        _close(law, state, p, max(2.0 * (1.0 - φ) / (1.0 + φ), 0.0))
+def _column(law):
+    return column_of_opening(law)
+
+
+@overload(_column, jit_options=INLINED)
+def _compiled_column(law):
+    column = column_of_opening(law.instance_class)
+    return lambda law: column
 
 
 @inlined

@@ -69,9 +69,8 @@ class Gather(NamedTuple):
     """Move the particles with the nodes and update their stress; tells who left its block.
 
     Velocities change by h times the acceleration. With v None they stay, and positions follow the
-    velocity that `Velocity` kept. With `law` None volume and stress stay. Arrays: v, V, stress, m
-    or None if the law never opens, the law's variables, sum of strains, the last two None where
-    there are none.
+    velocity that `Velocity` kept. With `law` None volume and stress stay. Arrays: v, those of
+    `ParticleSet.material`.
     """
 
     law: object
@@ -82,10 +81,10 @@ class Gather(NamedTuple):
 
 @visit.register(Gather)
 def gather(work, here, a, p):
-    v, V, stress, m, state, total = a
+    v, material = a
     n, wx, wy, wz = locate(here, p)
     value, sx, sy, sz = collect(here.source, n, here.rows, wx, wy, wz)
-    _strained(work, work.law, here, value, sx, sy, sz, V, stress, m, state, total, p)
+    _strained(work, work.law, here, value, sx, sy, sz, material, p)
     X = _moved(work, here.x, v, value, p)
     store_row(here.x, p, X)
     return 0 if within(in_block(here.mesh, here.origin, X), here.low, here.high) else 1
@@ -102,12 +101,13 @@ def _moved(work, x, v, value, p):
 
 
 @inlined
-def _strained(work, law, here, value, sx, sy, sz, V, stress, m, state, total, p):
+def _strained(work, law, here, value, sx, sy, sz, material, p):
     if law is not None:
+        V, stress, m, state, total, account = material
         confine(law, here.mesh, here.x, lane(value, 6), m, V, state, p)
         strain = strain_increment(here.mesh, sx, sy, sz, work.dt)
         spin = spin_increment(here.mesh, sx, sy, sz, work.dt)
-        advance(law, work.rotation, strain, spin, V, stress, state, total, p, work.dt)
+        advance(law, work.rotation, strain, spin, V, stress, state, total, account, p, work.dt)
 
 
 class Remap(NamedTuple):
@@ -133,7 +133,7 @@ def remap(work, here, a, p):
 class StrainAndForce(NamedTuple):
     """Update stress with the nodal velocity, add the internal force of the new one to the tiles.
 
-    Arrays: V, stress, pressure of a pore fluid or None, and the last three of `Gather`.
+    Arrays: pressure of a pore fluid or None, those of `ParticleSet.material`.
     """
 
     law: object
@@ -143,10 +143,11 @@ class StrainAndForce(NamedTuple):
 
 @visit.register(StrainAndForce)
 def strain_and_force(work, here, a, p):
-    V, stress, pressure, m, state, total = a
+    pressure, material = a
+    V, stress = material[0], material[1]
     n, wx, wy, wz = locate(here, p)
     value, sx, sy, sz = collect(here.source, n, here.rows, wx, wy, wz)
-    _strained(work, work.law, here, value, sx, sy, sz, V, stress, m, state, total, p)
+    _strained(work, work.law, here, value, sx, sy, sz, material, p)
     C1, C2, C3 = internal_force(here.mesh, V, stress, pressure, p)
     deposit(here.tiles[0], here.n0 + n, here.rows, wx, wy, wz, splat(0.0), C1, C2, C3)
     return 0
