@@ -9,7 +9,7 @@ import numpy as np
 
 from mpmgeo.case.building.lint import lint
 from mpmgeo.case.building.solver import build
-from mpmgeo.case.building.time_step import critical_time_step
+from mpmgeo.case.building.time_step import critical_time_step, stable_time_step
 from mpmgeo.case.coordinates import in_mesh
 from mpmgeo.case.load import load_case
 from mpmgeo.case.report import nearest, show
@@ -53,7 +53,9 @@ class Simulation:
         self.probes = in_mesh(case.results, case.mesh.origin).probes
         self.messages += [*notes, *remarks()]
         self.threads = self._set_threads(threads or case.n_threads)
-        self.critical_time_step = critical_time_step(case, self.field("velocity"))
+        velocity = self.field("velocity")
+        self.critical_time_step = critical_time_step(case, velocity)
+        self.stable_time_step = stable_time_step(case, self.solver, velocity)
         self.interrupted = False
         self.stopped = None  # why a watcher stopped the last run, None if none did
         self.goes_on = False  # whether files of its earlier part may be in the output folder

@@ -43,12 +43,24 @@ def densities(law) -> tuple[float, float]:
 
 def wave_speed(law) -> float:
     """Return the speed of the faster compression wave [m/s]."""
-    n, K = law.porosity, law.bulk_fluid
-    M = law.density * law.sound_speed() ** 2
-    ρ1, ρ2 = densities(law)
+    return sqrt(_fastest(law, law.density * law.sound_speed() ** 2, law.bulk_fluid))
+
+
+def frequency(law, slopes, smooth: bool) -> float:
+    """Return ω² [1/s²] of motions with the `slopes` of `mpm.stability`, K Σ in the place of K.
+
+    `smooth`: whether the particles of a cell share their pressure.
+    """
+    Σ = slopes.mean_divergence if smooth else slopes.divergence
+    return _fastest(law, law.resistance(slopes)[0], law.bulk_fluid * Σ)
+
+
+def _fastest(law, M, K):
+    """Return c² of the faster wave for the stiffness M of the skeleton and K of the fluid."""
+    n, (ρ1, ρ2) = law.porosity, densities(law)
     a = (M + (1 - n) ** 2 * K / n) / ρ1 + n * K / ρ2
     b = M * n * K / (ρ1 * ρ2)
-    return sqrt((a + sqrt(max(a * a - 4 * b, 0.0))) / 2)
+    return (a + sqrt(max(a * a - 4 * b, 0.0))) / 2
 
 
 def problem(law, gravity: float) -> str | None:

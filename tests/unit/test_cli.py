@@ -47,7 +47,8 @@ def simulations(monkeypatch):
 
         def __init__(self, case, output=None, threads=None):
             self.case, self.output, self.threads = case, output, threads
-            self.time_step, self.critical_time_step = case.time_step, 1e-2
+            self.time_step = case.time_step
+            self.critical_time_step, self.stable_time_step = 2e-2, 1e-2
             self.messages = ["a note of the simulation"]
             self.has_run = False
             made.append(self)
@@ -123,9 +124,9 @@ def test_strict_makes_lint_errors(case_file, simulations, tmp_path, capsys):
     case = json.loads(case_file.read_text())
     case_file.write_text(json.dumps(case | {"time_step": 0.05}))
     assert cli.main(["case.json", "--output", "out"]) == cli.DONE
-    assert "warning: time_step: 0.05 s exceeds the critical" in text_of(capsys)
+    assert "warning: time_step: 0.05 s exceeds 0.01 s" in text_of(capsys)
     assert cli.main(["case.json", "--strict", "--output", "strict"]) == cli.BAD_INPUT
-    assert "error: time_step: 0.05 s exceeds the critical" in text_of(capsys)
+    assert "error: time_step: 0.05 s exceeds 0.01 s" in text_of(capsys)
     assert not (tmp_path / "strict").exists()
 
 
