@@ -1,16 +1,16 @@
 """How long a time step is stable, and how near to that the limit is which the program states.
 
-python benchmarks/stability.py [--one] [--two]
+python benchmarks/stability.py [one_phase] [two_phases]
 
 For schemes, shapes, particles a cell, Poisson's ratios and cells: the limit that `Simulation`
 states and the one that bisection finds, the worst of some places of the block on the grid, as
 shares of the critical time step h/c. With two phases also for several conductivities. The figures
-are written to benchmarks/results/stability.csv; `mpmgeo/verify/stability.py` says what counts as
+are written to benchmarks/results/stability_….csv; `mpmgeo/verify/stability.py` says what counts as
 stable.
 """
 
-import argparse
 import csv
+import sys
 import warnings
 from itertools import product
 from pathlib import Path
@@ -18,7 +18,7 @@ from pathlib import Path
 import mpmgeo
 from mpmgeo.verify.stability import OFFSETS, Trial, bisected, block
 
-RESULTS = Path(__file__).parent / "results" / "stability.csv"
+RESULTS = Path(__file__).parent / "results"
 METHODS = (
     ("USL", "GIMP"),
     ("MUSL", "GIMP"),
@@ -29,6 +29,7 @@ METHODS = (
 COUNTS = (1, 2, 3, 4)  # along an edge of a cell
 RATIOS = (0.0, 0.3, 0.49)
 CELLS = ((1, 1, 1), (1, 1, 5))
+EXTREMES = (0.0, 0.49)
 CONDUCTIVITIES = (1e-6, 1e-3, 1.0)  # m/s
 DEFAULT = 0.25  # share of the critical time step that is taken if a case says none
 COLUMNS = ("scheme", "shape", "cells", "particles", "poisson", "conductivity")
@@ -43,31 +44,27 @@ def measure(method, edges, count, poisson, conductivity):
     return trials[0].limit, bisected(trials, 0.95 * trials[0].limit)
 
 
-def main():
-    """Measure, print and write."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--one", action="store_true", help="one phase only")
-    parser.add_argument("--two", action="store_true", help="two phases only")
-    arguments = parser.parse_args()
-    both = arguments.one == arguments.two
-    grids = []
-    if both or arguments.one:
-        grids.append(product(METHODS, CELLS, COUNTS, RATIOS, (None,)))
-    if both or arguments.two:
-        methods = [method for method in METHODS if method[0] != "USF"]
-        grids.append(product(methods, CELLS, COUNTS, RATIOS, CONDUCTIVITIES))
+def grid(name):
+    """Return what is measured: methods, cells, particles, Poisson's ratios, conductivities."""
+    if name == "one_phase":
+        return product(METHODS, CELLS, COUNTS, RATIOS, (None,))
+    methods = [method for method in METHODS if method[0] != "USF"]
+    return product(methods, CELLS, COUNTS, EXTREMES, CONDUCTIVITIES)
+
+
+def tabulate(name):
+    """Measure a grid, print and write it."""
     rows = []
-    for method, edges, count, poisson, conductivity in (key for grid in grids for key in grid):
+    for method, edges, count, poisson, conductivity in grid(name):
         limit, found = measure(method, edges, count, poisson, conductivity)
         cells, ratio = ":".join(map(str, edges)), limit / found if found else float("inf")
         wet = "" if conductivity is None else f"{conductivity:g}"
         numbers = (f"{limit:.3f}", f"{found:.3f}", f"{ratio:.2f}")
         rows.append((*method, cells, count**3, poisson, wet, *numbers))
         print(*rows[-1], flush=True)
-    name = RESULTS if both else RESULTS.with_stem(f"stability_{'one' if arguments.one else 'two'}")
-    with name.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerows([COLUMNS, *rows])
+    path = RESULTS / f"stability_{name}.csv"
+    with path.open("w", newline="", encoding="utf-8") as file:
+        csv.writer(file, lineterminator="\n").writerows([COLUMNS, *rows])
     ratios = [float(row[-1]) for row in rows]
     smallest = min(float(row[6]) for row in rows)
     print(f"limit / bisected from {min(ratios):.2f} to {max(ratios):.2f}, wanted 0.6 to 1.05")
@@ -76,4 +73,5 @@ def main():
 
 if __name__ == "__main__":
     warnings.simplefilter("ignore", mpmgeo.CaseWarning)
-    main()
+    for name in sys.argv[1:] or ("one_phase", "two_phases"):
+        tabulate(name)

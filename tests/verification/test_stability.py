@@ -67,13 +67,13 @@ def test_two_phases_over_the_grid(method):
 
 
 @pytest.mark.parametrize(
-    ("place", "share"), [("critical_time_step_multiplier", 0.9), ("step", 0.95)]
+    ("place", "share"), [("critical_time_step_multiplier", 0.9), ("time_step", 0.95)]
 )
 def test_a_block_that_diverges_is_warned_of_and_the_diagnosis_names_the_limit(place, share):
     """Shares of the critical time step with USL and GIMP, of a cube that falls."""
     case = limits.block()
     critical = mpmgeo.Simulation(case).critical_time_step
-    case |= {"time_step": share * critical} if place == "step" else {place: share}
+    case |= {"time_step": share * critical} if place == "time_step" else {place: share}
     simulation = mpmgeo.Simulation(case)
     limit = f"{simulation.stable_time_step:.4g} s, up to which USL with GIMP is stable"
     (warning,) = simulation.warnings

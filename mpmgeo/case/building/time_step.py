@@ -47,15 +47,26 @@ def stable_time_step(case, solver, velocity):
     for s in solver.sets:
         law, half = laws[solver.population.material[s.row[0]]], np.atleast_2d(s.half).min(axis=0)
         slopes = stability.slopes(solver.shape, filtered, half, case.mesh.cells_dimension)
-        stiffness, viscosity = law.resistance(slopes)
-        if case.n_phases == 1:
-            wave, ω2, ρ = law.sound_speed(), stiffness / law.density, law.density
-        else:
-            wave, ρ = saturation.wave_speed(law), saturation.densities(law)[0]
-            ω2 = saturation.frequency(law, slopes, case.pore_pressure_smoothing)
-        step = stability.stable_time_step(ω2, viscosity / ρ, filtered)
+        two = case.n_phases == 2
+        wave = saturation.wave_speed(law) if two else law.sound_speed()
+        step = (_of_two_phases if two else _of_one_phase)(case, law, slopes, filtered)
         steps.append(step * wave / (wave + speed))
     return min(steps)
+
+
+def _of_one_phase(case, law, slopes, filtered):
+    stiffness, viscosity = law.resistance(slopes)
+    return stability.stable_time_step(stiffness / law.density, viscosity / law.density, filtered)
+
+
+def _of_two_phases(case, law, slopes, filtered):
+    """Return the step [s] with the drag of a shorter one, the one without drag."""
+    decay = law.resistance(slopes)[1] / saturation.densities(law)[0]
+    rate, step = saturation.drag_rate(law, case.conductivity_gravity), 0.0
+    for _ in range(2):
+        ω2 = saturation.frequency(law, slopes, case.pore_pressure_smoothing, rate * step)
+        step = stability.stable_time_step(ω2, decay, filtered)
+    return step
 
 
 def time_step(case, velocity):
