@@ -61,46 +61,38 @@ def stable_time_step(frequency, decay, filtered):
 
 def slopes(shape, filtered, half, cell):
     """Return the largest slopes of particles of half-sizes `half` (3,) [cells], `cell` (3,) [m]."""
-    half = [max(round(l, 4), SMALLEST) for l in half]
+    axes = [rows(shape, filtered, max(round(float(l), 4), SMALLEST)) for l in half]
     scale = 1.0 / np.square(cell)
-    places = [*zip(*(rows(shape, filtered, l) for l in half), strict=True)]
-    μ, means = np.max([[_largest(axis) for axis in axes] for axes in places], axis=0).T
-    Γ = max(_gradient(axes, scale) for axes in places)
+    μ, means = np.transpose([[np.linalg.eigvalsh(A).max() for A in axis[:2]] for axis in axes])
+    Γ = max(_gradient(axes, scale, start) for start in (0.0, 1.0))
     return Slopes(float(μ @ scale), Γ, Γ if filtered else Γ * 2 / 3, float(means @ scale))
 
 
-def _largest(axis):
-    """Return μ of a row, and of the means over its cells."""
-    A, mean, _ = axis
-    return np.linalg.eigvalsh(A)[-1], np.linalg.eigvalsh(mean)[-1]
-
-
-def _gradient(axes, scale):
-    """Return Γ: the vectors of the three axes are improved in turn."""
-    found = 0.0
-    for start in (0.0, 1.0):
-        α, π = np.ones(3), np.full(3, start)
-        for turn in range(ROUNDS * 3):
-            a, b, c = turn % 3, (turn + 1) % 3, (turn + 2) % 3
-            A, _, P = axes[a]
-            own = scale[a] * π[b] * π[c]
-            others = scale[b] * α[b] * π[c] + scale[c] * π[b] * α[c]
-            value, u = np.linalg.eigh(own * A + others * P)
-            u = u[:, -1]
-            α[a], π[a] = u @ A @ u, u @ P @ u
-        found = max(found, value[-1])
-    return float(found)
+def _gradient(axes, scale, π):
+    """Return Γ: the vectors of the three axes are improved in turn, from uᵀPu = π; all places."""
+    places = len(axes[0][0])
+    α, π = np.ones((3, places)), np.full((3, places), π)
+    for turn in range(3 * ROUNDS):
+        a, b, c = turn % 3, (turn + 1) % 3, (turn + 2) % 3
+        A, _, P = axes[a]
+        own = scale[a] * π[b] * π[c]
+        others = scale[b] * α[b] * π[c] + scale[c] * π[b] * α[c]
+        value, u = np.linalg.eigh(own[:, None, None] * A + others[:, None, None] * P)
+        u = u[:, :, -1]
+        α[a], π[a] = (np.einsum("ni,nij,nj->n", u, X, u) for X in (A, P))
+    return float(value[:, -1].max())
 
 
 @lru_cache(typed=True)
 def rows(shape, filtered, l):
     """Return A, A of the means over cells, and P of rows of particles of half-size `l` [cells].
 
-    One entry for each place on the grid.
+    Each is (places, nodes, nodes), for all places on the grid.
     """
     ends = (TOUCH, 0.5 - TOUCH, 0.5 + TOUCH, *(i / PLACES for i in range(PLACES)))
     ends = (*ends, *((l + end) % 1.0 for end in ends))
-    return [_operators(shape, filtered, l, length, end) for length in LENGTHS for end in ends]
+    found = [_operators(shape, filtered, l, length, end) for length in LENGTHS for end in ends]
+    return tuple(map(np.array, zip(*found, strict=True)))
 
 
 def _operators(shape, filtered, l, length, end):
@@ -120,7 +112,7 @@ def _operators(shape, filtered, l, length, end):
 def _row(shape, l, length, end):
     """Return weights, slopes (particles, nodes), cells of a row `end` cells after a node."""
     count, nodes = max(1, round(length / (2 * l))), width(shape)
-    S = np.zeros((count, length + 1 + 2 * nodes))
+    S = np.zeros((count, max(LENGTHS) + 1 + 2 * nodes))
     B, places = np.zeros_like(S), nodes + end + 2 * l * np.arange(count)
     for p, x in enumerate(places):
         first = floor(x - nodes / 2 + 1)
