@@ -151,6 +151,7 @@ def _build(case, arguments, output):
     `case`: None for that of the snapshot to resume.
     """
     from mpmgeo.case.report import CaseError
+    from mpmgeo.run.progress import about_step
     from mpmgeo.simulation import Simulation
 
     options = {"output": output, "threads": arguments.threads}
@@ -171,18 +172,8 @@ def _build(case, arguments, output):
     said = {*case.notes, *case.warnings, *simulation.warnings}
     if not arguments.quiet:
         _say_all("note", [text for text in simulation.messages if text not in said])
-        _say("note", _about_step(simulation))
+        _say("note", about_step(simulation))
     return simulation
-
-
-def _about_step(simulation):
-    """Return the time step beside those that it may be compared with."""
-    stable = simulation.stable_time_step
-    return (
-        f"time step {simulation.time_step:.4g} s; "
-        + (f"stable up to {stable:.4g} s" if stable else "no step is stable")
-        + f", critical {simulation.critical_time_step:.4g} s"
-    )
 
 
 def _save_resolved(case, folder):

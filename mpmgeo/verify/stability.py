@@ -3,9 +3,9 @@
 A block of 3 × 3 × 3 cells, free in its mesh, undamped, gets velocities of noise, which hold all its
 motions. They are a billionth of the wave speed: nothing crosses a cell, so that a step is a linear
 map, whose powers grow or do not. Without growth the energy, kinetic and elastic, falls (USL) or
-swings within a factor of ten (MUSL, USF, whose velocities lie half a step before positions). A step
-counts as too long if the energy is a thousand times the first one within a thousand steps: growth
-of a third of a percent a step. The slow growth of bodies that cross cells is not looked for.
+swings (MUSL, USF, the more the nearer the limit, as velocities lie half a step before positions). A
+step counts as too long if the energy is a thousand times the first one within a thousand steps:
+growth of a third of a percent a step. The slow growth of bodies that cross cells is not looked for.
 """
 
 import numpy as np

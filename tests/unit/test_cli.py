@@ -120,6 +120,14 @@ def test_strict_makes_warnings_errors(case_file, simulations, tmp_path, capsys):
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.parametrize("mode", [[], ["--check"]])
+def test_tells_the_time_step_and_the_stable_one(case_file, simulations, capsys, mode):
+    assert cli.main(["case.json", "--output", "out", *mode]) == cli.DONE
+    step = json.loads(case_file.read_text())["time_step"]
+    expected = f"note: time step {step:.4g} s; stable up to 0.01 s, critical 0.02 s"
+    assert expected in capsys.readouterr().err
+
+
 def test_strict_makes_lint_errors(case_file, simulations, tmp_path, capsys):
     case = json.loads(case_file.read_text())
     case_file.write_text(json.dumps(case | {"time_step": 0.05}))
