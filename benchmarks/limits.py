@@ -1,6 +1,6 @@
 """What plain MPM cannot do, in numbers: the figures of manual/limits.md.
 
-python benchmarks/limits.py [layers] [bar] [spin] [linear]
+python benchmarks/limits.py [layers] [bar] [spin] [linear] [flight]
 """
 
 import sys
@@ -75,7 +75,24 @@ def linear():
             print(f"USL linear, {share:g} of the critical step, {name}: {end}", flush=True)
 
 
+def flight():
+    """Print by how much the vibration of a cube in flight has grown, and when the guard tells."""
+    plain = [(scheme, share, 0.5, 2) for scheme in SCHEMES for share in (0, 0.1, 0.3, 0.9)]
+    smaller = [("MUSL", 0.3, step, 2) for step in (0.9, 0.25, 0.1)]
+    layouts = [("MUSL", 0.3, 0.5, count) for count in (1, 3, 4)]
+    for scheme, share, step, count in plain + smaller + layouts:
+        more = {"critical_time_step_multiplier": step, "stress_scheme_update": scheme}
+        simulation = mpmgeo.Simulation(limits.flight(share, count, **more))
+        start, heard = limits.vibrate(simulation), limits.Heard()
+        simulation.run(watchers=[heard])
+        grown = (limits.vibration(simulation) / start) ** 0.5
+        told = "" if heard.at is None else f", told at {(heard.at / start) ** 0.5:.2g}"
+        print(
+            f"{scheme}, {share:g} c, step {step:g}, {count} an edge: {grown:.3g}{told}", flush=True
+        )
+
+
 if __name__ == "__main__":
     warnings.simplefilter("ignore", mpmgeo.CaseWarning)
-    for name in sys.argv[1:] or ("layers", "bar", "spin", "linear"):
+    for name in sys.argv[1:] or ("layers", "bar", "spin", "linear", "flight"):
         globals()[name]()

@@ -14,9 +14,15 @@ HOOKS = (
 
 
 class Effect:
-    """Does nothing; an effect overrides what it needs. `name` begins the names of its state."""
+    """Does nothing; an effect overrides what it needs. `name` begins the names of its state.
+
+    `does_work`: whether it may do work on the material; then it adds that to the solver's ledger,
+    `solver.ledger.put_in(work)`, if there is one, and without one nobody can tell of energy whether
+    it was put in.
+    """
 
     name = ""
+    does_work = True
 
     def join(self, solver):
         """Look at a solver that has made no step, of which the effect is to be a part."""

@@ -4,7 +4,7 @@
 The material point method of `mpm/` is the first formulation; a test keeps to this list.
 """
 
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -28,6 +28,20 @@ class Terrain(Protocol):
         """Return that share (n,) at points (n, 3) [m]."""
 
 
+class Energies(NamedTuple):
+    """What tells whether energy has appeared [J].
+
+    `total`: what there is less what was put in, as far as both are known: it may only fall;
+    `within`: of strain and of motion apart from that of the bodies' centres of mass; `turnover`:
+    what was dissipated or put in at nodes; `size` of the sums, whose round-off is in the total.
+    """
+
+    total: float
+    within: float
+    turnover: float
+    size: float
+
+
 class Formulation(Protocol):
     """A solver: its state, and what it does with it. SI units."""
 
@@ -42,6 +56,7 @@ class Formulation(Protocol):
     cutoff: float  # [kg] mass up to which a node counts as empty
     ground: Terrain | None
     reactions: np.ndarray | None  # (6 + prescribed velocities, 3) [N] when last measured
+    ledger: Any  # of energy: `row()` are the last figures; None if the case asks for none
     peak_energy: float | None  # [J] before the particles were stopped in the last step, if so
     departures: list  # `Departure` of particles that left the mesh
     clock: Any  # `numerics.clock.Clock`, seconds by stage
@@ -54,6 +69,9 @@ class Formulation(Protocol):
 
     def arrange(self) -> None:
         """Bring the particles in the order that looking for them by place needs; as `step`."""
+
+    def energies(self) -> Energies | None:
+        """Return what tells whether energy has appeared, None if work is done that nobody sees."""
 
     def kinetic_energy(self) -> float:
         """Return the kinetic energy of the active particles [J]."""

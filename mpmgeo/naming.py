@@ -6,6 +6,9 @@ from collections.abc import Iterator
 PLANES = ("X0", "Y0", "Z0", "Xn", "Yn", "Zn")
 """The six planes that bound the mesh."""
 
+ENERGIES = ("kinetic", "strain", "external", "plastic", "damping", "balance")
+"""The figures of a balance of energy."""
+
 GHOSTS = 2
 """Layers of nodes around the mesh that numbers of nodes count, as in MPM-Geomechanics."""
 

@@ -15,7 +15,7 @@ from mpmgeo.case.load import load_case
 from mpmgeo.case.report import nearest, show
 from mpmgeo.case.spec import Case
 from mpmgeo.mpm.incidents import Unsound
-from mpmgeo.naming import PLANES
+from mpmgeo.naming import ENERGIES, PLANES
 from mpmgeo.numerics.chunks import most_threads
 from mpmgeo.numerics.jit import remarks
 from mpmgeo.output.claim import claimed
@@ -28,6 +28,7 @@ from mpmgeo.run.diagnosis import diagnose, last_stress
 from mpmgeo.run.loop import run
 from mpmgeo.run.losses import Losses
 from mpmgeo.run.snapshots import Snapshots
+from mpmgeo.run.surplus import Surplus
 from mpmgeo.run.watch import Diverged, Guard
 
 
@@ -64,6 +65,7 @@ class Simulation:
         self.changes = []  # of the case on the way, each with time, steps and values by key
         self._kept = None
         self._told = set()
+        self.changed = 0  # how often values have changed otherwise than by steps
         self._histories = histories_of(self, self.output or Path())
 
     @classmethod
@@ -90,6 +92,8 @@ class Simulation:
         take_snapshot(simulation.solver, snapshot)
         simulation._told = told
         simulation.goes_on = True
+        if changed:
+            simulation._changed()
         simulation.changes = [*snapshot.facts.get("changes", ()), *record_of(simulation, changed)]
         for remark in remarks_on(simulation, changed):
             simulation.say(remark)
@@ -134,7 +138,7 @@ class Simulation:
         cannot be written, or if another run writes into the output folder.
         """
         every = self.output_interval
-        watchers = [Guard(every), *self._files(every), Losses(), *watchers]
+        watchers = [Guard(every), Surplus(every), *self._files(every), Losses(), *watchers]
         try:
             with claimed(self.output, self.case.title):
                 run(self, self.case.time if until is None else until, watchers)
@@ -167,21 +171,17 @@ class Simulation:
         if numba.get_num_threads() != self.threads:
             numba.set_num_threads(self.threads)
         self._guarded(self.solver.step)
-        self._report_events()
-
-    def _report_events(self):
         for topic, messages in self.solver.news():
-            if self._once(topic):
-                for message in messages():
-                    self.say(message)
+            self.tell(topic, messages)
         for message in remarks():
             if message not in self.messages:
                 self.say(message)
 
-    def _once(self, topic):
-        new = topic not in self._told
-        self._told.add(topic)
-        return new
+    def tell(self, topic, messages):
+        """Keep messages for the user, which `messages()` returns, unless the topic is old."""
+        if topic not in self._told:
+            self._told.add(topic)
+            self.messages += messages()
 
     def arrange(self):
         """Bring the particles in the order that looking for them by place needs."""
@@ -245,6 +245,11 @@ class Simulation:
         peak = self.solver.peak_energy
         return self.kinetic_energy() if peak is None else peak
 
+    def energy(self):
+        """Return the last row of the balance of energy, {column: [J]}; empty without one."""
+        ledger = self.solver.ledger
+        return {} if ledger is None else dict(zip(ENERGIES, map(float, ledger.row()), strict=True))
+
     def field(self, key):
         """Return a field of all particles in row order: a key of the results, position, mass, or a
         variable of a law; stress has the columns xx yy zz xy yz xz. KeyError for an unknown key."""
@@ -272,6 +277,13 @@ class Simulation:
             raise ValueError(f"{key} has the shape {shape}, not {values.shape}")
         for s in self.solver.sets:
             getattr(s, name)[:] = values[s.row]
+        self._changed()
+
+    def _changed(self):
+        """Begin a new balance of energy: values are others."""
+        self.changed += 1
+        if self.solver.ledger is not None:
+            self.solver.ledger.restart()
 
     def reactions(self):
         """Return the forces (3,) [N] on the material by plane, X0 … Zn, and prescribed velocity.

@@ -39,9 +39,11 @@ ACTIONS = (*LOADS, TerrainContact)
 NOT_WITH_TWO_PHASES = (
     ("stress_scheme_update", "USF", '"USF" is for one phase; accepted with two: "USL", "MUSL"'),
     ("compatibility", None, "two phases have no earlier form that is worth keeping; leave it out"),
+    ("results.energy", None, "the balance of energy is for one phase; leave it out"),
     *((cls.key, None, cls.one_phase_only) for cls in ACTIONS if cls.one_phase_only),
 )
-"""Keys and values (None: any) that do not go with two phases, and why."""
+"""Keys, with those that lead to them, and values (None: any) that do not go with two phases, and
+why."""
 
 RESOLUTION = 1e-12
 """Smallest cell edge relative to the largest coordinate that doubles still resolve usefully."""
@@ -81,6 +83,13 @@ class Mesh(Placed):
 
 
 @dataclass(frozen=True)
+class EnergyPlan:
+    """The balance of energy over time."""
+
+    every: int = parameter("Steps between two rows", minimum=1, default=10)
+
+
+@dataclass(frozen=True)
 class Results:
     """What the run writes, and how often."""
 
@@ -104,6 +113,9 @@ class Results:
         "Fields of the terrain files; none: only the initial one is written",
         choices=(*TERRAIN_FIELDS, "all", "none"),
         default=("none",),
+    )
+    energy: EnergyPlan | None = parameter(
+        "Balance of energy, in energy.csv; absent: none", default=None
     )
     probes: tuple[Probe, ...] = parameter("Histories at points, of particles, …", default=())
 

@@ -31,6 +31,7 @@ class Stops(Effect):
     """Stops all particles at peaks of the kinetic energy."""
 
     name = "kinetic damping"
+    does_work = False
 
     def __init__(self):
         self.last = 0.0  # kinetic energy after the last step [J]

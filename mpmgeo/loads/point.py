@@ -73,7 +73,7 @@ class PointLoads(Effect):
         corner = self.node // SIDE
         self._keys = grid.keys
         self._owner = np.full(len(self.node), -1)
-        self._at = np.zeros(len(self.node), np.int64)
+        self._at, self._record = np.zeros((2, len(self.node)), np.int64)
         for index, key in enumerate(keys_of(corner)):
             block = np.searchsorted(grid.active, key)
             if block == len(grid.active) or grid.active[block] != key:
@@ -83,6 +83,7 @@ class PointLoads(Effect):
                 if owner >= 0 and (local < grid.side).all():
                     self._owner[index] = owner
                     self._at[index] = owner * volume(grid.rows) + place(grid.rows, *local)
+                    self._record[index] = block * NODES + inner(*self.node[index] % SIDE)
                     break
 
     def before_nodes(self, solver, task):
@@ -92,6 +93,14 @@ class PointLoads(Effect):
             self._find(grid)
         covered = self._owner >= 0
         np.add.at(grid.solid.in_tiles("force"), self._at[covered], self.force[covered])
+
+    def after_nodes(self, solver, h):
+        """Add the work of the forces to a ledger."""
+        if solver.ledger is not None:
+            covered = self._owner >= 0
+            of_node, at = solver.grid.solid.at_nodes, self._record[covered]
+            v = of_node("velocity")[at] - 0.5 * h * of_node("acceleration")[at]
+            solver.ledger.put_in(h * float((self.force[covered] * v).sum()))
 
     def news(self, solver):
         """Tell, once the nodes have their masses, of loads that act on nothing."""

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from math import sqrt
 from typing import ClassVar, NamedTuple
 
-from mpmgeo.materials.law import Law, Moduli, update_stress
+from mpmgeo.materials.law import Law, Moduli, strain_energy, update_stress
 from mpmgeo.numerics.jit import inlined
 from mpmgeo.parameters import parameter
 
@@ -67,3 +67,17 @@ def hooke(law, stress, strain):
 @update_stress.register(Symbols)
 def elastic(law, stress, strain, state, dt):
     return hooke(law, stress, strain)
+
+
+@inlined
+def hooke_energy(law, stress):
+    """Return ½ σ : ε [J/m³] for the elastic strain of a stress, for any law with λ and G2."""
+    xx, yy, zz, xy, yz, xz = stress
+    tr = xx + yy + zz
+    square = xx * xx + yy * yy + zz * zz + 2.0 * (xy * xy + yz * yz + xz * xz)
+    return (square - law.λ / (3.0 * law.λ + law.G2) * tr * tr) / (2.0 * law.G2)
+
+
+@strain_energy.register(Symbols)
+def elastic_energy(law, stress):
+    return hooke_energy(law, stress)

@@ -82,3 +82,21 @@ def update_stress(law, stress, strain, state, dt):
     the law's own variables in the order of its `STATE`, an empty tuple without any. `dt`: time
     step [s].
     """
+
+
+@generic
+def strain_energy(law, stress):
+    """Return the elastic energy in a unit of volume under a stress (6,), [J/m³].
+
+    Only laws with an elastic part have one; all the work on another counts as dissipated.
+    """
+
+
+@strain_energy.register(tuple)
+def no_strain_energy(law, stress):
+    return 0.0
+
+
+def stores_energy(law) -> bool:
+    """Tell whether the law of some symbols says what elastic energy a stress means."""
+    return strain_energy.find(type(law)) is not no_strain_energy

@@ -28,8 +28,8 @@ from math import exp, inf, radians, sqrt, tan
 from typing import ClassVar, NamedTuple
 
 from mpmgeo.materials import mohr_coulomb_legacy
-from mpmgeo.materials.elastic import Elastic, hooke
-from mpmgeo.materials.law import update_stress
+from mpmgeo.materials.elastic import Elastic, hooke, hooke_energy
+from mpmgeo.materials.law import strain_energy, update_stress
 from mpmgeo.materials.mohr_coulomb_return import cut_off, flow_number, return_to_surface
 from mpmgeo.materials.rotation import objective_rate
 from mpmgeo.numerics.dispatch import generic
@@ -276,3 +276,10 @@ def mohr_coulomb(law, stress, strain, state, dt):
     ε1, ε2, ε3 = k * d1 - tr, k * d2 - tr, k * d3 - tr
     εp = sqrt(2.0 / 3.0 * (ε1 * ε1 + ε2 * ε2 + ε3 * ε3)) / law.E
     return on_same_axes(p, y1, y2, y3) + (state[0] + εp,)
+
+
+@strain_energy.register(Constant)
+@strain_energy.register(Softening)
+@strain_energy.register(Undrained)
+def elastic_energy(law, stress):
+    return hooke_energy(law, stress)

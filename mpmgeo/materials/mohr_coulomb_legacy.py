@@ -14,8 +14,8 @@ Source: Itasca, FLAC theory, Mohr–Coulomb model: the equations that program fo
 from math import exp, sqrt
 from typing import NamedTuple
 
-from mpmgeo.materials.elastic import hooke
-from mpmgeo.materials.law import update_stress
+from mpmgeo.materials.elastic import hooke, hooke_energy
+from mpmgeo.materials.law import strain_energy, update_stress
 from mpmgeo.materials.mohr_coulomb_return import flow_number
 from mpmgeo.numerics.jit import inlined
 from mpmgeo.numerics.tensors import on_same_axes, principal
@@ -90,3 +90,8 @@ def mohr_coulomb_legacy(law, stress, strain, state, dt):
     if εp == 0.0:
         return trial + state
     return on_same_axes(p, y1, y2, y3) + (state[0] + εp,)
+
+
+@strain_energy.register(Symbols)
+def elastic_energy(law, stress):
+    return hooke_energy(law, stress)

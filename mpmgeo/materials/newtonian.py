@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from math import sqrt
 from typing import ClassVar, NamedTuple
 
-from mpmgeo.materials.law import Law, Moduli, update_stress
+from mpmgeo.materials.law import Law, Moduli, strain_energy, update_stress
 from mpmgeo.numerics.jit import inlined
 from mpmgeo.parameters import parameter
 
@@ -93,6 +93,13 @@ def tearing(law, stress, strain, state, dt):
     mean += law.κ * (state[0] + strain[0] + strain[1] + strain[2])
     borne = min(mean, law.T)
     return *with_viscous_stress(law.μ, borne, strain, dt), (mean - borne) / law.κ
+
+
+@strain_energy.register(Symbols)
+@strain_energy.register(Tearing)
+def compression_energy(law, stress):
+    mean = (stress[0] + stress[1] + stress[2]) / 3.0
+    return mean * mean / (2.0 * law.κ)
 
 
 @inlined

@@ -9,9 +9,12 @@ import numpy as np
 from mpmgeo.boundaries.base_motion import STILL
 from mpmgeo.boundaries.planes import Planes
 from mpmgeo.effect import HOOKS, Effect
+from mpmgeo.formulation import Energies
+from mpmgeo.materials.law import stores_energy
 from mpmgeo.mpm.incidents import Departures, Unsound
 from mpmgeo.mpm.persistence import copy_of, state_of, take_over
 from mpmgeo.mpm.stages import Stages
+from mpmgeo.mpm.tally import tally
 from mpmgeo.mpm.task import OnePhase
 from mpmgeo.numerics.clock import Clock
 from mpmgeo.state.checked import demand, number_from, whole_from
@@ -55,6 +58,7 @@ class Solver(Stages):
         self.small = self.count <= SMALL
         self.departures = Departures(self.population.zero)
         self.reactions = None  # (6 + tools, 3) [N] of planes and tools when last measured
+        self.ledger = None  # of energy, if it is asked for
         self.peak_energy = None  # before the particles were stopped in the last step, if they were
         self.gone = self.count  # how many particles are not where the order says
         self.motion = STILL  # of a plane that moves
@@ -125,6 +129,27 @@ class Solver(Stages):
     def kinetic_energy(self) -> float:
         """Return the kinetic energy of the active particles [J]."""
         return sum(kinetic_energy(s, self.crew) for s in self.sets)
+
+    def tally(self, left=False):
+        """Return the sums of energies over the active particles, or over those that `left`."""
+        return tally(self.sets, self.gravity, self.population.body, self.crew, left)
+
+    def energies(self):
+        """Return what tells whether energy has appeared, None if work is done that nobody sees.
+
+        Positions and volumes are taken back by half a step, to where the velocities are.
+        """
+        works = any(effect.does_work for effect in self.effects)
+        if self.ledger is None and (works or not all(stores_energy(s.law) for s in self.sets)):
+            return None
+        here = self.tally()
+        if self.ledger is not None:
+            return self.ledger.energies(here.within)
+        lag = 0.5 * self.time_step if self.steps else 0.0
+        potential = float((here.potential - lag * here.power).sum())
+        potential += float(self.tally(left=True).potential.sum())
+        held = float((here.kinetic + here.strain).sum())
+        return Energies(held - potential, here.within, 0.0, held + abs(potential))
 
     def check(self):
         """Raise Unsound if a particle is NaN, infinite or would cross a cell in a step."""

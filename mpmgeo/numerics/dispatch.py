@@ -23,7 +23,8 @@ def generic(stub):
     """Turn `stub(model, …)` into a function that picks its implementation by the type of `model`.
 
     Returns the function, with `.register(cls)`, a decorator that raises ValueError for a class that
-    has an implementation already. Calling it for an unknown class raises TypeError.
+    has an implementation already, and `.find(cls)`, which returns the implementation for a class.
+    Calling either for an unknown class raises TypeError.
     """
     implementations = {}
     names = list(inspect.signature(stub).parameters)
@@ -66,7 +67,7 @@ def generic(stub):
 
         return add
 
-    function.register = register
+    function.register, function.find = register, find
     overload(function, jit_options=INLINED)(scope["template"])
     return function
 

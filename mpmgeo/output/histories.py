@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mpmgeo.naming import PLANES
+from mpmgeo.naming import ENERGIES, PLANES
 from mpmgeo.output.probes.probe import VECTOR
 from mpmgeo.output.whole_file import append, whole_file
 
@@ -133,6 +133,19 @@ class ToolForces:
         return [*velocity, *way, *force]
 
 
+class EnergyRows:
+    """The balance of energy of a simulation."""
+
+    columns = ENERGIES
+
+    def __init__(self, simulation):
+        self.solver = simulation.solver
+
+    def row(self):
+        """Return the figures of the last row that is due [J]."""
+        return self.solver.ledger.row()
+
+
 def histories_of(simulation, folder):
     """Return the histories that the case of a simulation asks for, in a folder.
 
@@ -142,6 +155,9 @@ def histories_of(simulation, folder):
         History(folder / "probes" / f"{probe.name}.csv", probe.every, probe.sampler(simulation))
         for probe in simulation.probes
     ]
+    energy = simulation.case.results.energy
+    if energy is not None:
+        made.append(History(folder / "energy.csv", energy.every, EnergyRows(simulation)))
     for number, entry in enumerate(simulation.case.prescribed_velocity):
         path = folder / "reactions" / f"{entry.name}.csv"
         made.append(History(path, entry.every, ToolForces(simulation, number, entry.motion)))

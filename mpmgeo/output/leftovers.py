@@ -4,13 +4,14 @@ from pathlib import Path
 
 from mpmgeo.state.stress_file import NAME as STRESS_FILE
 
-TERRAIN, SNAPSHOTS = "centroid_points_stl_contact", "snapshots"
+TERRAIN, SNAPSHOTS, ENERGY = "centroid_points_stl_contact", "snapshots", "energy.csv"
 PLACES = (
     (SNAPSHOTS, "snapshot_*.npz"),
     ("probes", "*.csv"),
     ("reactions", "*.csv"),
     (TERRAIN, "*.vtu"),
     (".", STRESS_FILE),
+    (".", ENERGY),
 )
 """Folder and names of files that a run writes only if its case asks for them."""
 

@@ -27,6 +27,12 @@ class Diverged(Exception):
     """A run whose particles became NaN, infinite or too fast; the message says where and why."""
 
 
+def is_due(simulation, outputs) -> bool:
+    """Tell whether the state is to be checked, `outputs` being the steps between outputs."""
+    due = simulation.steps % EVERY == 0 or simulation.steps % outputs == 0
+    return due or simulation.time >= simulation.case.time
+
+
 class Guard(Watcher):
     """Checks before every output and every `EVERY` steps; goes back to the last sound state.
 
@@ -42,8 +48,7 @@ class Guard(Watcher):
 
     def after_step(self, simulation):
         """Check the state and keep it."""
-        due = simulation.steps % EVERY == 0 or simulation.steps % self.outputs == 0
-        if due or simulation.time >= simulation.case.time:
+        if is_due(simulation, self.outputs):
             simulation.check()
             simulation.keep()
 

@@ -14,7 +14,7 @@ from mpmgeo.state.checked import array_from, demand
 from mpmgeo.state.grid import cut
 
 ARRAYS = (
-    *("row", "x", "v", "m", "V", "stress", "half", "force", "state", "pressure", "strain"),
+    *("row", "x", "v", "m", "V", "stress", "half", "force", "state", "pressure", "strain", "work"),
     *("mf", "vf", "pf", "free", "pull"),
     *("due", "contact"),
 )
@@ -50,6 +50,7 @@ class ParticleSet:
     state: np.ndarray | None = None  # (n, k) variables of the law
     pressure: np.ndarray | None = None  # (n,) given pore pressure [Pa], compression positive
     strain: np.ndarray | None = None  # (n, 6) sum of the strain increments [-]
+    work: np.ndarray | None = None  # (n, 2) stored and dissipated of the work of stresses [J]
     due: np.ndarray | None = None  # (n,) when to look for contact, see `mpm.touch`; −1 in contact
     contact: np.ndarray | None = None  # (n, …) forces and shift of contact, see `mpm.terrain`
     tool: int | None = None  # number of the prescribed velocity that the particles have

@@ -1,10 +1,13 @@
 """Small problems with known answers that the plain material point method gets wrong.
 
 A column of two layers under its own weight (σzz = −ρg (H − z)), a bar that is drawn out slowly
-(σ = E ln(1 + ε)), a square that spins freely (its angular momentum stays).
+(σ = E ln(1 + ε)), a square that spins freely (its angular momentum stays), a cube that vibrates in
+flight (its energy stays).
 """
 
 import numpy as np
+
+from mpmgeo.run.watch import StopRun, Watcher
 
 CELL = 0.1
 DENSITY = 1000.0
@@ -121,3 +124,60 @@ def angular_momentum(simulation) -> float:
     x, y, _ = (simulation.field("position") - [0.6, 0.6, 0.0]).T
     u, v, _ = simulation.field("velocity").T
     return float(simulation.field("mass") @ (x * v - y * u))
+
+
+WAVE = 36.69  # speed of compression waves in the cube that flies [m/s], ν = 0.3
+CROSSINGS = 1000  # times that a wave could cross a cell during its flight
+
+
+def flight(share: float, count: int = 2, **keys) -> dict:
+    """Return the case of a cube of four cells that flies at a `share` of its wave speed.
+
+    `count`: particles along an edge of a cell; `vibrate` makes it vibrate. Nothing acts on it.
+    """
+    cells = int(share * CROSSINGS) + 8
+    return {
+        "time": CROSSINGS * CELL / WAVE,
+        "mesh": _mesh([cells, 6, 6], FREE),
+        "materials": [_elastic(1, SOFT, 0.3)],
+        "body": [
+            _cuboid(3 * [CELL], 3 * [5 * CELL])
+            | {"initial_velocity": [share * WAVE, 0, 0], "particles_per_direction": 3 * [count]}
+        ],
+    } | keys
+
+
+def vibrate(simulation) -> float:
+    """Make the cube vibrate along its way, by 1/1000 of its wave speed; return `vibration`."""
+    x, v = simulation.field("position")[:, 0], simulation.field("velocity").copy()
+    v[:, 0] += 1e-3 * WAVE * np.sin(np.pi * (x - x.mean()) / np.ptp(x))
+    simulation.assign("velocity", v)
+    return vibration(simulation)
+
+
+def vibration(simulation) -> float:
+    """Return the energy of strain and of motion against the centre of mass [J]."""
+    return simulation.solver.tally().within
+
+
+class Heard(Watcher):
+    """Notes the energy of the vibration, `at` [J], when the guard tells of energy from nowhere.
+
+    `stops`: whether the run ends then.
+    """
+
+    def __init__(self, stops=False):
+        self.stops = stops
+        self.at = None
+
+    def after_step(self, simulation):
+        """Look whether it has been told."""
+        if self.at is None and any(map(is_surplus, simulation.messages)):
+            self.at = vibration(simulation)
+            if self.stops:
+                raise StopRun("energy from nowhere")
+
+
+def is_surplus(message: str) -> bool:
+    """Tell whether a message tells of energy from nowhere."""
+    return "J more than were put in" in message

@@ -132,3 +132,35 @@ def test_from_the_command_line(snapshot, tmp_path, capsys):
 def test_allow_needs_both_files(words, capsys):
     assert cli.main([*words, "--allow", "gravity"]) == cli.BAD_INPUT
     assert "--allow goes with --resume" in capsys.readouterr().err
+
+
+def test_a_branch_begins_a_new_balance_of_energy(tmp_path):
+    """Another gravity would else count as energy that appears; two blocks fall freely."""
+    energy = {"results": {"energy": {"every": 1}}}
+    path = tmp_path / "s.npz"
+    simulation = mpmgeo.Simulation(two_blocks(**EARTH, **energy)).step(20)
+    assert abs(simulation.energy()["external"]) > 1
+    simulation.save(path)
+    branch = mpmgeo.Simulation.resume(path, two_blocks(**MOON, **energy), allow=["gravity"])
+    start = branch.kinetic_energy()
+    branch.step(1)
+    row = branch.energy()
+    assert abs(row["external"]) < 0.1 * abs(simulation.energy()["external"])
+    assert row["kinetic"] == pytest.approx(start, rel=0.05)
+
+
+@pytest.mark.parametrize(
+    ("first", "then", "message"),
+    [
+        ({}, {"results": {"energy": {"every": 5}}}, "lacks set0.work"),
+        ({"results": {"energy": {"every": 5}}}, {}, "which the case does not know"),
+    ],
+    ids=["not kept before", "not kept any more"],
+)
+def test_a_balance_of_energy_is_kept_from_the_start_or_not_at_all(tmp_path, first, then, message):
+    path = tmp_path / "s.npz"
+    mpmgeo.Simulation(two_blocks(**first)).step(3).save(path)
+    with pytest.raises(ValueError, match=r"results\.energy"):
+        mpmgeo.Simulation.resume(path, two_blocks(**then))
+    with pytest.raises(ValueError, match=message):
+        mpmgeo.Simulation.resume(path, two_blocks(**then), allow=["results.energy"])

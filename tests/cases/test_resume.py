@@ -99,6 +99,7 @@ HELD = ("damping", "compatibility")  # keys with which no particle leaves the me
 OLD = {"compatibility": "mpm-geomechanics"}
 LOCAL = {"damping": {"type": "local", "value": 0.3}}
 KINETIC = {"damping": {"type": "kinetic"}}
+ENERGY = {"results": {"print": 7, "energy": {"every": 3}}}
 
 CASES = {
     "USL": {},
@@ -118,6 +119,11 @@ CASES = {
     "two phases, kinetic damping": WET | KINETIC,
     "two phases on a moving base": WET | SHAKEN,
     "point load": {"nodal_point_load": [[[1, 1, 1], [0, 0, -3000]]]},
+    "energy": ENERGY,
+    "energy, USF": ENERGY | {"stress_scheme_update": "USF"},
+    "energy, Mohr–Coulomb": ENERGY | {"materials": [PLASTIC, ELASTIC]},
+    "energy, kinetic damping": ENERGY | KINETIC,
+    "energy, prescribed velocity": ENERGY | {"prescribed_velocity": [PUSHED]},
     "every step": {"results": {"print": 0, "material_point_results": ["stress"]}},
 }
 

@@ -12,7 +12,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from mpmgeo.materials import LAWS
-from mpmgeo.materials.law import update_stress
+from mpmgeo.materials.law import stores_energy, strain_energy, update_stress
 
 LAW = pytest.mark.parametrize("law", LAWS, ids=[law.__name__ for law in LAWS])
 SAMPLE = {
@@ -131,3 +131,16 @@ def test_sound_speed_is_that_of_the_tangent(law):
     material = sample(law)
     compression = response(material.symbols, TINY * np.eye(6)[0])[0] / TINY
     assert material.density * material.sound_speed() ** 2 == pytest.approx(compression, rel=1e-9)
+
+
+@LAW
+def test_the_strain_energy_is_the_work_of_a_small_strain(law):
+    """½ σ : ε from the unstressed state; of a change of volume alone if viscous stress is none."""
+    symbols = sample(law).symbols
+    if not stores_energy(symbols):
+        pytest.skip("the law stores no energy that it knows of")
+    solid = hasattr(law, "poisson")
+    strain = np.array([3, -1, 2, 1, -2, 1.5] if solid else [1, 1, 1, 0, 0, 0]) * TINY
+    stress = response(symbols, strain)
+    work = 0.5 * (stress * strain * [1, 1, 1, 2, 2, 2]).sum()
+    assert strain_energy(symbols, tuple(stress)) == pytest.approx(work, rel=1e-9)

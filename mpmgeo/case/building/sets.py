@@ -41,6 +41,7 @@ def particle_sets(case, population, velocity, laws, tool, contact, notes):
                 state=np.zeros((len(rows), variables)) if variables else None,
                 pressure=None if pressure is None else pressure[rows],
                 strain=np.zeros((len(rows), 6)) if strained else None,
+                work=np.zeros((len(rows), 2)) if case.results.energy is not None else None,
                 due=np.zeros(len(rows)) if touches else None,
                 contact=np.zeros((len(rows), contact.columns)) if touches else None,
                 tool=int(number) if number >= 0 else None,

@@ -43,10 +43,11 @@ def build(case):
         base(case, notes),
         tools,
         pore_fluid(case),
-        *_of_loads(case, mesh),
         contact,
+        *_of_loads(case, mesh),
         _reactions(case),
         *(_of_damping(kind, legacy) for kind in case.dampings),
+        _ledger(case),
     )
     solver = Solver(
         grid=Grid(mesh, shape.width),
@@ -84,6 +85,15 @@ def _of_damping(kind, legacy):
 def _of_loads(case, mesh):
     """Return what the loads of a case do during a step."""
     return [load.effect(getattr(case, load.key), mesh) for load in LOADS if load.is_several]
+
+
+def _ledger(case):
+    """Return what keeps the balance of energy, None if nobody asks."""
+    if case.results.energy is None:
+        return None
+    from mpmgeo.mpm.effects.ledger import Ledger
+
+    return Ledger(case.results.energy.every, case.stress_scheme_update == "USF")
 
 
 def _reactions(case):

@@ -28,6 +28,7 @@ def check(draft, report):
     _check_files(draft, report)
     _check_names(draft, report)
     _check_base(draft, report)
+    _check_energy(draft, report)
     check_phases(draft, report)
     note_idle(draft, report)
     warn_of_slips(draft, sound, report)
@@ -79,6 +80,14 @@ def _check_names(draft, report):
                 report.error(part.at("name"), f"{shown(part.values['name'])} is taken by {first}")
             elif name:
                 taken[name] = part.path
+
+
+def _check_energy(draft, report):
+    """Report a balance of energy of what is as in MPM-Geomechanics."""
+    for results in draft.of("results"):
+        if "energy" in results.given and draft.whole.values.get("compatibility") is not None:
+            message = "there is no balance of energy with compatibility; leave one of them out"
+            report.error(results.at("energy"), message)
 
 
 def _check_base(draft, report):

@@ -17,9 +17,11 @@ def check_phases(draft, report):
             if key not in part.given:
                 report.error(part.at(key), "missing; needed with two phases")
         _check_fluid(part, case, report)
-    for key, value, message in NOT_WITH_TWO_PHASES:
-        if key in case.given and value in (None, case.values.get(key)):
-            report.error((key,), message)
+    for path, value, message in NOT_WITH_TWO_PHASES:
+        *place, key = path.split(".")
+        for part in draft.of(*place):
+            if key in part.given and value in (None, part.values.get(key)):
+                report.error(part.at(key), message)
 
 
 def _check_fluid(part, case, report):

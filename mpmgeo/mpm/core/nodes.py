@@ -42,16 +42,17 @@ def momentum(work, node, a):
     if not m > 0.0:
         store(nodes, at, splat(0.0))
         return
-    vx, vy, vz, ax, ay, az, _, _, _ = integrated(work, node, driven, r, load(nodes, at))
-    store(nodes, at, pack(vx, vy, vz, ax, ay, az, m, 0.0))
+    new = integrated(work, node, driven, r, load(nodes, at))
+    store(nodes, at, pack(new[0], new[1], new[2], new[3], new[4], new[5], m, 0.0))
 
 
 @inlined
 def integrated(work, node, driven, r, u):
-    """Return velocity and acceleration of a node, and the force on it of what holds or drives it.
+    """Return velocity and acceleration of a node, the force on it of what holds or drives it, and
+    the acceleration by the models of damping.
 
     `r`: its sum of the tiles, `u`: its record before the step, `driven`: the arrays of
-    `work.driven`. One flat tuple of nine.
+    `work.driven`. One flat tuple of twelve.
     """
     planes, mesh, h = work.planes, node.mesh, work.h
     start, pull, drives = work.start, work.pull, work.drives
@@ -69,8 +70,9 @@ def integrated(work, node, driven, r, u):
     vx, vy, vz, ax, ay, az = vx * gx, vy * gy, vz * gz, ax * gx, ay * gy, az * gz
     x, y, z = ax, ay, az
     ax, ay, az = damp_all(work.damping, h, ax, ay, az, vx, vy, vz)
+    dx, dy, dz = ax - x, ay - y, az - z
     if len(work.damping):
-        ex, ey, ez = ex + ax - x, ey + ay - y, ez + az - z
+        ex, ey, ez = ex + dx, ey + dy, ez + dz
         if node.bounded:
             ax, ay, az = constrain(planes, mesh, i, j, k, ax, ay, az, pull, True)
     fx, fy, fz = m * (ax - ex), m * (ay - ey), m * (az - ez)
@@ -79,7 +81,7 @@ def integrated(work, node, driven, r, u):
     vx, ax, fx = drive(work.driven, driven, node.number, 0, r, vx, ax, fx, ex, h)
     vy, ay, fy = drive(work.driven, driven, node.number, 1, r, vy, ay, fy, ey, h)
     vz, az, fz = drive(work.driven, driven, node.number, 2, r, vz, az, fz, ez, h)
-    return vx, vy, vz, ax, ay, az, fx, fy, fz
+    return vx, vy, vz, ax, ay, az, fx, fy, fz, dx, dy, dz
 
 
 @inlined

@@ -3,7 +3,7 @@
 from numba.extending import overload
 from numba.np.unsafe.ndarray import to_fixed_tuple
 
-from mpmgeo.materials.law import update_stress
+from mpmgeo.materials.law import strain_energy, update_stress
 from mpmgeo.materials.rotation import rotate_stress
 from mpmgeo.numerics.jit import INLINED, inlined
 from mpmgeo.numerics.simd import add, lane, load_column, load_row, pack, scale, with_velocity
@@ -86,11 +86,13 @@ def _compiled_keep_state(law, state, p, new):
 
 
 @inlined
-def advance(law, rotation, strain, spin, V, stress, state, total, p, dt):
+def advance(law, rotation, strain, spin, V, stress, state, total, work, p, dt):
     """Update volume, stress and the law's variables of particle p for a strain increment.
 
     `rotation` None, or the objective rate by which the old stress follows the spin increment.
-    `total` None, or the strains, to which the increment is added.
+    `total` None, or the strains, to which the increment is added. `work` None, or what
+    particles have stored and dissipated of the work on them [J], to which that of the step is
+    added.
     """
     V[p] *= 1.0 + (strain[0] + strain[1] + strain[2])
     if total is not None:
@@ -102,3 +104,18 @@ def advance(law, rotation, strain, spin, V, stress, state, total, p, dt):
     for a in range(6):
         stress[p, a] = new[a]
     _keep_state(law, state, p, new)
+    if work is not None:
+        _account(law, old, new, strain, V[p], work, p)
+
+
+@inlined
+def _account(law, old, new, strain, V, work, p):
+    """Add the work of the mean stress to what particle p stores of it, and to what it does not."""
+    σ = (new[0], new[1], new[2], new[3], new[4], new[5])
+    xx, yy, zz = old[0] + σ[0], old[1] + σ[1], old[2] + σ[2]
+    xy, yz, xz = old[3] + σ[3], old[4] + σ[4], old[5] + σ[5]
+    done = xx * strain[0] + yy * strain[1] + zz * strain[2]
+    done += 2.0 * (xy * strain[3] + yz * strain[4] + xz * strain[5])
+    stored = strain_energy(law, σ) - strain_energy(law, old)
+    work[p, 0] += V * stored
+    work[p, 1] += V * (0.5 * done - stored)

@@ -69,7 +69,8 @@ class Gather(NamedTuple):
 
     Velocities change by h times the acceleration. With v None they stay, and positions follow the
     velocity that `Velocity` kept. With `law` None volume and stress stay. Arrays: v, V, stress, the
-    law's variables, sum of strains, the last two None where there are none.
+    law's variables, sum of strains, work stored and dissipated, the last three None where there are
+    none.
     """
 
     law: object
@@ -80,12 +81,12 @@ class Gather(NamedTuple):
 
 @visit.register(Gather)
 def gather(work, here, a, p):
-    v, V, stress, state, total = a
+    v, V, stress, state, total, account = a
     n, wx, wy, wz = locate(here, p)
     value, sx, sy, sz = collect(here.source, n, here.rows, wx, wy, wz)
     X = _moved(work, here.x, v, value, p)
     store_row(here.x, p, X)
-    _strained(work, work.law, here.mesh, sx, sy, sz, V, stress, state, total, p)
+    _strained(work, work.law, here.mesh, sx, sy, sz, V, stress, state, total, account, p)
     return 0 if within(in_block(here.mesh, here.origin, X), here.low, here.high) else 1
 
 
@@ -100,11 +101,11 @@ def _moved(work, x, v, value, p):
 
 
 @inlined
-def _strained(work, law, mesh, sx, sy, sz, V, stress, state, total, p):
+def _strained(work, law, mesh, sx, sy, sz, V, stress, state, total, account, p):
     if law is not None:
         strain = strain_increment(mesh, sx, sy, sz, work.dt)
         spin = spin_increment(mesh, sx, sy, sz, work.dt)
-        advance(law, work.rotation, strain, spin, V, stress, state, total, p, work.dt)
+        advance(law, work.rotation, strain, spin, V, stress, state, total, account, p, work.dt)
 
 
 class Remap(NamedTuple):
@@ -130,7 +131,7 @@ def remap(work, here, a, p):
 class StrainAndForce(NamedTuple):
     """Update stress with the nodal velocity, add the internal force of the new one to the tiles.
 
-    Arrays: V, stress, pressure of a pore fluid or None, and the last two of `Gather`.
+    Arrays: V, stress, pressure of a pore fluid or None, and the last three of `Gather`.
     """
 
     law: object
@@ -140,10 +141,10 @@ class StrainAndForce(NamedTuple):
 
 @visit.register(StrainAndForce)
 def strain_and_force(work, here, a, p):
-    V, stress, pressure, state, total = a
+    V, stress, pressure, state, total, account = a
     n, wx, wy, wz = locate(here, p)
     _, sx, sy, sz = collect(here.source, n, here.rows, wx, wy, wz)
-    _strained(work, work.law, here.mesh, sx, sy, sz, V, stress, state, total, p)
+    _strained(work, work.law, here.mesh, sx, sy, sz, V, stress, state, total, account, p)
     C1, C2, C3 = internal_force(here.mesh, V, stress, pressure, p)
     deposit(here.tiles[0], here.n0 + n, here.rows, wx, wy, wz, splat(0.0), C1, C2, C3)
     return 0

@@ -64,10 +64,10 @@ def forces(work, node, a, out, b):
     r = load(node.sums, node.at)
     if lane(r, 0) > 0.0:
         u = load(nodes, node.number * LANES)
-        _, _, _, _, _, _, fx, fy, fz = integrated(work, node, driven, r, u)
-        _count(work, node, driven, 0, fx, out, b)
-        _count(work, node, driven, 1, fy, out, b)
-        _count(work, node, driven, 2, fz, out, b)
+        new = integrated(work, node, driven, r, u)
+        _count(work, node, driven, 0, new[6], out, b)
+        _count(work, node, driven, 1, new[7], out, b)
+        _count(work, node, driven, 2, new[8], out, b)
 
 
 @inlined
@@ -93,12 +93,13 @@ def at_forces_node(work, node, a):
 
 
 @is_needless.register(Forces)
-def far_from_planes(work, a, b, bounded):
-    return not bounded and not _has_driven(work.work.driven, a[0][-1], b)
+def nothing_holds(work, a, b, bounded):
+    return not bounded and not has_driven(work.work.driven, a[0][-1], b)
 
 
 @inlined
-def _has_driven(model, driven, b):
+def has_driven(model, driven, b):
+    """Tell whether nodes of block b have a prescribed velocity."""
     if model is None:
         return False
     return driven[0][b * NODES : (b + 1) * NODES].max() >= 0
@@ -111,6 +112,7 @@ class Reactions(Effect):
     """
 
     name = "reactions"
+    does_work = False
 
     def __init__(self, intervals, tools=0):
         self.intervals = intervals

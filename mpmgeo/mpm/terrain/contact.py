@@ -47,7 +47,14 @@ class Contact(Effect):
         """Find what touches and change the nodes' velocities and accelerations."""
         self._arrange(solver)
         if len(self.near.near) and self._detect(solver):
+            of_node, before = solver.grid.solid.at_nodes, None
+            if solver.ledger is not None:
+                before = of_node("acceleration").copy()
             self._press(solver, h)
+            if before is not None:
+                m, v, a = map(of_node, ("mass", "velocity", "acceleration"))
+                power = m * ((a - before) * (v - 0.5 * h * a)).sum(axis=1)
+                solver.ledger.put_in(h * float(power.sum()))
         solver.clock.lap("contact")
 
     def _detect(self, solver):
@@ -86,11 +93,18 @@ class Contact(Effect):
         near, gone = self.near, 0
         self.follow(solver.motion, solver.time_step)
         if near.touched.any():
+            before = self._potential(solver)
             for number, s in enumerate(self.sets):
                 arrays = (s.due, s.contact, near.touched)
                 gone += self._over_particles(solver, MoveOut(), number, arrays)
+            if solver.ledger is not None:
+                solver.ledger.put_in(before - self._potential(solver))
         solver.clock.lap("contact")
         return gone
+
+    def _potential(self, solver):
+        """Return the work of the constant forces [J] if a ledger asks: who moves out is lifted."""
+        return 0.0 if solver.ledger is None else float(solver.tally().potential.sum())
 
     def _over_particles(self, solver, work, number, arrays, nodes=None):
         """Visit the particles of a set in the blocks near the ground."""
