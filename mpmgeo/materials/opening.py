@@ -21,7 +21,7 @@ stress and is kept; one number for it is ours.
 """
 
 from mpmgeo.numerics.jit import inlined
-from mpmgeo.numerics.tensors import on_same_axes, principal
+from mpmgeo.numerics.tensors import on_same_axes, plus, principal, scalar_product
 
 EQUAL = 1e-6  # difference of two principal stresses, over 2G θ, up to which they share θ
 
@@ -34,3 +34,13 @@ def strain_of_opening(law, stress, θ):
     n1, n2 = 1.0 if p[2] - p[0] <= near else 0.0, 1.0 if p[2] - p[1] <= near else 0.0
     o = θ / (1.0 + n1 + n2)
     return on_same_axes(p, n1 * o, n2 * o, o)
+
+
+@inlined
+def square_of_flow(ε, was_open, θ, wide):
+    """Return Δεp : Δεp, for the strain ε that flowed from a trial stress which counts θ as elastic.
+
+    What was open and still is, θ or less in a material that now is `wide` open, has not flown.
+    """
+    flow = plus(ε, -min(wide / θ, 1.0), was_open)
+    return scalar_product(flow, flow)

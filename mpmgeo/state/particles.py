@@ -81,9 +81,9 @@ class ParticleSet:
     def material(self):
         """Return what an update of the material needs: V, stress, m, state, strain, work.
 
-        The masses only where they bound what tension opens.
+        The masses only where they bound what tension opens, that is for `GRAINS`.
         """
-        m = None if column_of_opening(self.law) is None else self.m
+        m = self.m if getattr(self.law, "GRAINS", False) else None
         return self.V, self.stress, m, self.state, self.strain, self.work
 
     def volume(self, at=slice(None)):

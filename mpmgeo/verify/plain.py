@@ -10,27 +10,17 @@ Source: Sulsky, Zhou and Schreyer (1995), Comput. Phys. Commun. 87, 236–252, s
 """
 
 from math import floor, sqrt
-from typing import NamedTuple
 
 import numpy as np
 
-from mpmgeo.boundaries.planes import FIXED, SLIDING
 from mpmgeo.mpm.core.opening import confine
 from mpmgeo.mpm.core.point import advance
 from mpmgeo.mpm.schemes import musl, usf, usl
 from mpmgeo.numerics.jit import compiled, inlined
 from mpmgeo.shapes.shape import stencil, width
-from mpmgeo.state.particles import column_of_opening
+from mpmgeo.verify.dense_grid import Box, free_components
 
 ZERO = (0.0, 0.0, 0.0)
-
-
-class Box(NamedTuple):
-    """The mesh, and how many rows of nodes the dense grid has around it."""
-
-    cell: tuple
-    cells: tuple
-    ghosts: int
 
 
 @inlined
@@ -139,12 +129,15 @@ def held(free, n, a):
 
 
 @compiled
-def gather(shape, box, mesh, law, rotation, rows, half, x, v, m, own, M, A, drift, U, dt, h):
+def gather(shape, box, law, rotation, rows, half, x, v, own, nodes, A, drift, dt, h):
     """Change v by the nodal A, move x with `drift`, strain with U; what is None is left out.
 
-    `law` None: no strain; `m` None: it never opens; `own`: volumes, stresses, variables of the law.
+    `law` None: no strain; `own`: masses or None, volumes, stresses, variables of the law;
+    `nodes`: M and U.
     """
     S = width(shape)
+    m, V, stress, state = own
+    M, U = nodes
     for p in rows:
         I, wx = stencil_along(0, shape, box, half, x, p)
         J, wy = stencil_along(1, shape, box, half, x, p)
@@ -166,8 +159,7 @@ def gather(shape, box, mesh, law, rotation, rows, half, x, v, m, own, M, A, drif
                         dx, dy, dz = plus(dx, gx, nodal), plus(dy, gy, nodal), plus(dz, gz, nodal)
                         mass += w * M[n]
         if law is not None:
-            V, stress, state = own
-            confine(law, mesh, x, mass, m, V, state, p)
+            confine(law, box.mesh, x, mass, m, V, state, p)
             strain(law, rotation, dx, dy, dz, V, stress, state, p, dt)
         for c in range(3):
             v[p, c] += h * a[c]
@@ -197,21 +189,6 @@ def leave(box, x, active):
     return left
 
 
-def free_components(box, planes):
-    """Return 0 for nodal components (nx, ny, nz, 3) that a plane holds, 1 for the others."""
-    free = np.ones((*(n + 1 + 2 * box.ghosts for n in box.cells), 3))
-    kinds = ((planes.x0, planes.xn), (planes.y0, planes.yn), (planes.z0, planes.zn))
-    for axis, (lower, upper) in enumerate(kinds):
-        nodes = np.moveaxis(free, axis, 0)
-        first, last = nodes[: box.ghosts + 1], nodes[box.ghosts + box.cells[axis] :]
-        for slab, kind in ((first, lower), (last, upper)):
-            if kind == FIXED:
-                slab[:] = 0.0
-            elif kind == SLIDING:
-                slab[..., axis] = 0.0
-    return free
-
-
 class PlainSolver:
     """A copy of a solver's state that steps on by itself; its arrays are in row order.
 
@@ -225,8 +202,8 @@ class PlainSolver:
         self.shape, self.time_step, self.steps = solver.shape, solver.time_step, solver.steps
         self.local = solver.damping[0].α if solver.damping else None
         self.cutoff = solver.cutoff
-        mesh = self.mesh = solver.grid.mesh
-        self.box = Box(mesh[:3], mesh[6:], ghosts=(width(solver.shape) + 1) // 2)
+        mesh = solver.grid.mesh
+        self.box = Box(mesh, mesh[:3], mesh[6:], ghosts=(width(solver.shape) + 1) // 2)
         self.free = free_components(self.box, solver.planes)
         self.M = np.zeros(self.free.shape[:3])
         self.P, self.F, self.U, self.A = (np.zeros_like(self.free) for _ in range(4))
@@ -252,15 +229,6 @@ class PlainSolver:
         for s, state in zip(solver.sets, self.state, strict=True):
             if s.state is not None:
                 state[s.row] = s.state
-
-    @property
-    def volume(self):
-        """Return the volumes (n,) with what tension has opened [m³]."""
-        open_by = np.zeros(len(self.V))
-        for (law, _, _), state in zip(self.sets, self.state, strict=True):
-            if (column := column_of_opening(law)) is not None:
-                open_by += state[:, column]
-        return self.V * np.exp(open_by)
 
     def step(self):
         """Advance by one time step; the first one changes velocities by half a step."""
@@ -306,10 +274,9 @@ class PlainSolver:
 
     def _gather(self, h, A, drift, strains=False):
         for (law, rotation, rows), state in zip(self.sets, self.state, strict=True):
-            m = None if column_of_opening(law) is None else self.m
-            own = self.V, self.stress, state
+            m = self.m if getattr(law, "GRAINS", False) else None
+            own = m, self.V, self.stress, state
             gather(
-                *(self.shape, self.box, self.mesh, law if strains else None, rotation, rows),
-                *(self.half, self.x, self.v, m, own, self.M, A, drift, self.U),
-                *(self.time_step, h),
+                *(self.shape, self.box, law if strains else None, rotation, rows, self.half),
+                *(self.x, self.v, own, (self.M, self.U), A, drift, self.time_step, h),
             )

@@ -1,15 +1,17 @@
-"""How far a particle is open, and that it is so by no more than the space around it is empty.
+"""That a particle is open by no more than the space around it is empty.
 
 A law that has `opening` among its variables keeps the strain θ by which tension has opened the
 material (`materials/opening.py`). V is the volume without openings, that with them is V e^θ. The
 velocities of nodes that few particles reach tell less of the space between particles than of their
 own noise, and what has opened in them would close by squeezing the particles together. So the mass
-around a particle bounds what is open:
+around a particle of grains bounds what is open:
 
-    θ ≤ max(0, 2 (1 − φ)/(1 + φ)) ≈ −ln φ,    φ = (V/m) Σ S mᵢ/Σ S Vᵢ
+    θ ≤ max(0, 2 (q − φ)/(q + φ)) ≈ ln q/φ,    φ = (V/m) Σ S mᵢ/Σ S Vᵢ
 
 φ is the share of that space that is filled, with neighbours as dense as the particle; Vᵢ is the
-volume of a node, half a cell and less at the sides of the mesh. Source: ours.
+volume of a node, half a cell and less at the sides of the mesh. A share q is full, for φ swings by
+some hundredths where particles have left their lattice. A fluid needs no bound: what opens in it is
+little, and closes. Source: ours.
 """
 
 from numba.extending import overload
@@ -17,18 +19,20 @@ from numba.extending import overload
 from mpmgeo.numerics.jit import INLINED, inlined
 from mpmgeo.state.particles import column_of_opening
 
+FULL = 1.03
+
 
 @inlined
 def confine(law, mesh, x, mass, m, V, state, p):
     """Let particle p be open by no more than the space around it is empty.
 
-    `mass`: Σ S mᵢ [kg], `m`: the masses of the particles, None for a law that never opens.
+    `mass`: Σ S mᵢ [kg], `m`: the masses of the particles, None for a law without bound.
     """
     if m is not None:
         column = _column(law)
         if state[p, column] > 0.0:
             φ = mass * V[p] / (m[p] * space(mesh, x, p))
-            most = 2.0 * (1.0 - φ) / (1.0 + φ)
+            most = 2.0 * (FULL - φ) / (FULL + φ)
             state[p, column] = min(state[p, column], max(most, 0.0))
 
 
