@@ -13,7 +13,7 @@ GRAVITY = 9.81
 CASE = {
     "title": "Elastic slope under its own weight",
     "time": 4.0,
-    "critical_time_step_multiplier": 0.4,
+    "critical_time_step_multiplier": 0.35,
     "gravity": [0.0, 0.0, -GRAVITY],
     "mesh": {
         "cells_number": [20, 1, 10],

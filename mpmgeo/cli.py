@@ -151,6 +151,7 @@ def _build(case, arguments, output):
     `case`: None for that of the snapshot to resume.
     """
     from mpmgeo.case.report import CaseError
+    from mpmgeo.run.progress import about_step
     from mpmgeo.simulation import Simulation
 
     options = {"output": output, "threads": arguments.threads}
@@ -171,6 +172,7 @@ def _build(case, arguments, output):
     said = {*case.notes, *case.warnings, *simulation.warnings}
     if not arguments.quiet:
         _say_all("note", [text for text in simulation.messages if text not in said])
+        _say("note", about_step(simulation))
     return simulation
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from mpmgeo.case.building.lint import lint
 from mpmgeo.case.building.solver import build
-from mpmgeo.case.building.time_step import critical_time_step
+from mpmgeo.case.building.time_step import critical_time_step, stable_time_step
 from mpmgeo.case.coordinates import in_mesh
 from mpmgeo.case.load import load_case
 from mpmgeo.case.report import nearest, show
@@ -55,14 +55,14 @@ class Simulation:
         self.messages += [*notes, *remarks()]
         self.threads = self._set_threads(threads or case.n_threads)
         self.critical_time_step = critical_time_step(case, self.field("velocity"))
+        self.stable_time_step = stable_time_step(case, self.solver, self.field("velocity"))
         self.interrupted = False
         self.stopped = None  # why a watcher stopped the last run, None if none did
         self.goes_on = False  # whether files of its earlier part may be in the output folder
         self.snapshot = None  # path of the last one written
         self.warnings = []
         self.changes = []  # of the case on the way, each with time, steps and values by key
-        self._kept = None
-        self._told = set()
+        self._kept, self._told = None, set()
         self.changed = 0  # how often values have changed otherwise than by steps
         self._histories = histories_of(self, self.output or Path())
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from math import sqrt
 from typing import ClassVar, NamedTuple
 
-from mpmgeo.materials.law import Law, strain_energy, update_stress
+from mpmgeo.materials.law import Law, Moduli, strain_energy, update_stress
 from mpmgeo.numerics.jit import inlined
 from mpmgeo.parameters import parameter
 
@@ -36,6 +36,12 @@ class Elastic(Law):
         G = self.young / (2 * (1 + self.poisson))
         K = self.young / (3 * (1 - 2 * self.poisson))
         return Symbols(λ=K - 2 * G / 3, G2=2 * G)
+
+    @property
+    def moduli(self) -> Moduli:
+        """Return λ and 2G, without viscosity."""
+        K, G = self.young / (3 * (1 - 2 * self.poisson)), self.young / (2 * (1 + self.poisson))
+        return Moduli(K - 2 * G / 3, 2 * G)
 
     def sound_speed(self) -> float:
         """Return the speed of the compression wave [m/s]."""

@@ -3,11 +3,20 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 from math import inf
+from typing import NamedTuple
 
 from mpmgeo.materials.rotation import objective_rate
 from mpmgeo.numerics.dispatch import generic
 from mpmgeo.parameters import Vector, parameter
 from mpmgeo.values import is_usable
+
+
+class Moduli(NamedTuple):
+    """How stiff and viscous a law is at its stiffest: λ, 2G [Pa], η [Pa s]."""
+
+    λ: float
+    G2: float
+    η: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -48,6 +57,16 @@ class Law:
     def symbols_as_mpm_geomechanics(self):
         """Return the symbols of the law as the program MPM-Geomechanics has it."""
         return self.symbols
+
+    @property
+    def moduli(self) -> Moduli:
+        """Return what limits the time step: of a law that does not say, as if it were a fluid."""
+        return Moduli(self.density * self.sound_speed() ** 2, 0.0)
+
+    def resistance(self, slopes) -> tuple[float, float]:
+        """Return ω² ρ [Pa/m²] and d ρ [Pa s/m²] of motions with the `slopes` of `mpm.stability`."""
+        λ, G2, η = self.moduli
+        return max(λ, 0.0) * slopes.divergence + G2 * slopes.gradient, 2 * η * slopes.deviator
 
     def critical_time_step(self, cell: float, speed: float) -> float:
         """Return the time [s] of a wave across a `cell` [m], particles moving at `speed` [m/s]."""

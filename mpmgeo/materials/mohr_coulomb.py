@@ -10,82 +10,33 @@ the principal stresses. It gathers as
 
     εp ← εp + √(⅔ Δεp : Δεp)
 
-Strengths are those of εp before the step:
+with the strengths of εp before the step (`mohr_coulomb_strength.py`). What tension opens has to
+close before stress returns (`opening.py`). For large rotations the stress turns with the Jaumann
+rate unless another is chosen.
 
-    y = y_residual + (y_peak − y_residual) exp(−η εp)    softening, y = φ, ψ, c, T
-    N = 1,    c = su max(−σzz, 0)                        undrained, σzz of the trial stress
-
-T never lies beyond the apex of the surface, σc/(N − 1). For large rotations the stress turns with
-the Jaumann rate unless another is chosen.
-
-Source: de Souza Neto, Perić and Owen, Computational Methods for Plasticity (2008), chapter 8; the
-softening is that of MPM-Geomechanics; su as in Skempton (1957), Proc. Inst. Civ. Eng. 7, 305–307.
+Source: de Souza Neto, Perić and Owen, Computational Methods for Plasticity (2008), chapter 8.
 """
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import exp, inf, radians, sqrt, tan
-from typing import ClassVar, NamedTuple
+from math import inf, radians, sqrt, tan
+from typing import ClassVar
 
 from mpmgeo.materials import mohr_coulomb_legacy
 from mpmgeo.materials.elastic import Elastic, hooke, hooke_energy
 from mpmgeo.materials.law import strain_energy, update_stress
-from mpmgeo.materials.mohr_coulomb_return import cut_off, flow_number, return_to_surface
+from mpmgeo.materials.mohr_coulomb_return import (
+    cut_off,
+    flow_number,
+    lost_strain,
+    return_to_surface,
+    tensile_part,
+)
+from mpmgeo.materials.mohr_coulomb_strength import Constant, Softening, Undrained, strength
+from mpmgeo.materials.opening import square_of_flow, strain_of_opening
 from mpmgeo.materials.rotation import objective_rate
-from mpmgeo.numerics.dispatch import generic
 from mpmgeo.numerics.tensors import invariants, on_same_axes, principal
 from mpmgeo.parameters import parameter
-
-
-class Constant(NamedTuple):
-    λ: float
-    G2: float
-    E: float
-    ν: float
-    N: float
-    M: float
-    σc: float
-    T: float
-
-    STATE = ("plastic_strain",)
-
-
-class Softening(NamedTuple):
-    """Strengths after softening, and by how much more they begin; angles in radians."""
-
-    λ: float
-    G2: float
-    E: float
-    ν: float
-    η: float
-    φ: float
-    φ_loss: float
-    ψ: float
-    ψ_loss: float
-    c: float
-    c_loss: float
-    T: float
-    T_loss: float
-
-    STATE = ("plastic_strain",)
-
-
-class Undrained(NamedTuple):
-    """Strength by vertical stress; dilation and tension may soften."""
-
-    λ: float
-    G2: float
-    E: float
-    ν: float
-    su: float
-    η: float
-    ψ: float
-    ψ_loss: float
-    T: float
-    T_loss: float
-
-    STATE = ("plastic_strain",)
-
 
 SOFTENING = ("friction", "dilation", "cohesion", "tensile")
 """The strengths that may soften, by the words of the keys."""
@@ -229,53 +180,32 @@ class MohrCoulomb(Elastic):
         return mohr_coulomb_legacy.Symbols(*super().symbols, *strengths)
 
 
-@generic
-def strength(law, zz, εp):
-    """Return N, M, σc [Pa], T [Pa] at the trial vertical stress `zz` [Pa] and plastic strain εp."""
-
-
-@strength.register(Constant)
-def constant(law, zz, εp):
-    return law.N, law.M, law.σc, law.T
-
-
-@strength.register(Softening)
-def softening(law, zz, εp):
-    w = exp(-law.η * εp)
-    N = flow_number(law.φ + law.φ_loss * w)
-    M = flow_number(law.ψ + law.ψ_loss * w)
-    σc = 2.0 * (law.c + law.c_loss * w) * sqrt(N)
-    return N, M, σc, cut_off(N, σc, law.T + law.T_loss * w)
-
-
-@strength.register(Undrained)
-def undrained(law, zz, εp):
-    w = exp(-law.η * εp)
-    M = flow_number(law.ψ + law.ψ_loss * w)
-    return 1.0, M, 2.0 * law.su * max(-zz, 0.0), law.T + law.T_loss * w
-
-
 @update_stress.register(Constant)
 @update_stress.register(Softening)
 @update_stress.register(Undrained)
 def mohr_coulomb(law, stress, strain, state, dt):
     trial = hooke(law, stress, strain)
-    N, M, σc, T = strength(law, trial[2], state[0])
+    εp, θ = state
+    N, M, σc, T = strength(law, trial[2], εp)
     m, s = invariants(trial)
     # whatever the directions: s₃ ≤ m + 2s, and N s₃ − s₁ ≤ (N − 1) m + 2s √(N² + N + 1)
-    if (N - 1.0) * m + s * (2.0 * N + 1.5) <= σc and m + 2.0 * s <= T:
+    if θ == 0.0 and (N - 1.0) * m + s * (2.0 * N + 1.5) <= σc and m + 2.0 * s <= T:
         return trial + state
+    was_open = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    if θ > 0.0:
+        was_open = strain_of_opening(law, stress, θ)
+        trial = hooke(law, trial, was_open)
     p = principal(trial)
     s1, s2, s3 = p[0], p[1], p[2]
     if N * s3 - s1 <= σc and s3 <= T:
-        return trial + state
+        return trial + (εp, 0.0)
     y1, y2, y3 = return_to_surface(s1, s2, s3, law.ν / (1.0 - law.ν), N, M, σc, T)
-    d1, d2, d3 = s1 - y1, s2 - y2, s3 - y3
-    # |C d|² for the drop d of the principal stresses and the compliance C
-    tr, k = law.ν * (d1 + d2 + d3), 1.0 + law.ν
-    ε1, ε2, ε3 = k * d1 - tr, k * d2 - tr, k * d3 - tr
-    εp = sqrt(2.0 / 3.0 * (ε1 * ε1 + ε2 * ε2 + ε3 * ε3)) / law.E
-    return on_same_axes(p, y1, y2, y3) + (state[0] + εp,)
+    ε1, ε2, ε3 = lost_strain(s1 - y1, s2 - y2, s3 - y3, law.ν, 1.0 / law.E)
+    wide = tensile_part(ε1, ε2, ε3, M) if y3 == T else 0.0
+    square = ε1 * ε1 + ε2 * ε2 + ε3 * ε3
+    if θ > 0.0:
+        square = square_of_flow(on_same_axes(p, ε1, ε2, ε3), was_open, θ, wide)
+    return on_same_axes(p, y1, y2, y3) + (εp + sqrt(2.0 / 3.0 * square), wide)
 
 
 @strain_energy.register(Constant)

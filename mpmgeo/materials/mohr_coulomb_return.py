@@ -84,3 +84,19 @@ def return_to_surface(s1, s2, s3, r, N, M, σc, T):
         y1 = low
         y2 = min(max(s2 - r / (1.0 + r) * (s1 - low + s3 - T), low), T)
     return y1, y2, y3
+
+
+@inlined
+def lost_strain(d1, d2, d3, ν, compliance):
+    """Return the plastic strain that lets the principal stresses drop by d; `compliance` is 1/E."""
+    tr, k = ν * (d1 + d2 + d3), 1.0 + ν
+    return compliance * (k * d1 - tr), compliance * (k * d2 - tr), compliance * (k * d3 - tr)
+
+
+@inlined
+def tensile_part(ε1, ε2, ε3, M):
+    """Return the part of a plastic volume strain, on a plane of tension, that is no dilation.
+
+    Shear shortens axes 1 and 2, and lengthens the others by M times as much.
+    """
+    return max(ε1 + ε2 + ε3 - (M - 1.0) * (max(-ε1, 0.0) + max(-ε2, 0.0)), 0.0)

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from math import sqrt
 from typing import ClassVar, NamedTuple
 
-from mpmgeo.materials.law import Law, strain_energy, update_stress
+from mpmgeo.materials.law import Law, Moduli, strain_energy, update_stress
 from mpmgeo.numerics.jit import inlined
 from mpmgeo.parameters import parameter
 
@@ -34,7 +34,7 @@ class Tearing(NamedTuple):
     μ: float
     T: float
 
-    STATE = ("void",)
+    STATE = ("opening",)
 
 
 @dataclass(frozen=True)
@@ -58,6 +58,11 @@ class Newtonian(Law):
         if self.tensile is None:
             return Symbols(κ=self.bulk, μ=self.viscosity)
         return Tearing(κ=self.bulk, μ=self.viscosity, T=self.tensile)
+
+    @property
+    def moduli(self) -> Moduli:
+        """Return bulk modulus and viscosity."""
+        return Moduli(self.bulk, 0.0, self.viscosity)
 
     def sound_speed(self) -> float:
         """Return the speed of the compression wave [m/s]."""

@@ -43,12 +43,37 @@ def densities(law) -> tuple[float, float]:
 
 def wave_speed(law) -> float:
     """Return the speed of the faster compression wave [m/s]."""
-    n, K = law.porosity, law.bulk_fluid
-    M = law.density * law.sound_speed() ** 2
+    return sqrt(_fastest(law, law.density * law.sound_speed() ** 2, law.bulk_fluid))
+
+
+def frequency(law, slopes, smooth: bool, drag: float = 0.0) -> float:
+    """Return ω² [1/s²] of motions with the `slopes` of `mpm.stability`, K Σ in the place of K.
+
+    `smooth`: whether the particles of a cell share their pressure; `drag`: rate of the drag times
+    the step, which divides accelerations of the phases against each other by 1 + drag.
+    """
+    Σ = slopes.mean_divergence if smooth else slopes.divergence
+    return _fastest(law, law.resistance(slopes)[0], law.bulk_fluid * Σ, 1 / (1 + drag))
+
+
+def drag_rate(law, gravity: float) -> float:
+    """Return the least rate [1/s] at which drag brings the phases together; see `pore_fluid`."""
     ρ1, ρ2 = densities(law)
-    a = (M + (1 - n) ** 2 * K / n) / ρ1 + n * K / ρ2
-    b = M * n * K / (ρ1 * ρ2)
-    return sqrt((a + sqrt(max(a * a - 4 * b, 0.0))) / 2)
+    c = law.porosity * ρ2 * gravity / max(law.hydraulic_conductivity)
+    return c / ρ1 + c / ρ2
+
+
+def _fastest(law, M, K, θ=1.0):
+    """Return c² of the faster wave for the stiffness M of the skeleton and K of the fluid.
+
+    `θ`: share that drag leaves of what accelerates the phases against each other.
+    """
+    n, (ρ1, ρ2) = law.porosity, densities(law)
+    both = (1 - θ) / (ρ1 + ρ2)
+    w1, w2 = θ / ρ1 + both, θ / ρ2 + both
+    a = w1 * (M + (1 - n) ** 2 * K / n) + w2 * n * K + 2 * both * (1 - n) * K
+    b = (w1 * w2 - both * both) * M * n * K
+    return (a + sqrt(max(a * a - 4 * b, 0.0))) / 2
 
 
 def problem(law, gravity: float) -> str | None:

@@ -31,3 +31,7 @@ def usf(s, h):
 
 
 SCHEMES = {"USL": usl, "MUSL": musl, "USF": usf}
+
+FILTERED = (musl, usf)
+"""Schemes that strain with velocities which particles brought to the nodes, not with those of nodes
+that forces have moved: they bear longer steps (`mpm.stability`)."""

@@ -80,7 +80,7 @@ class Stages(Loops):
         nodes, step = self.grid.nodes, 0.0 if h is None else h
         for s in self.sets:
             work = Gather(s.law if stress else None, s.rotation, self.time_step, step)
-            arrays = (None if h is None else s.v, s.V, s.stress, s.state, s.strain, s.work)
+            arrays = (None if h is None else s.v, s.material)
             self.gone += self.over_particles(work, s, arrays, None, nodes)
         self.clock.lap("gather")
         for act in self.asked["after_gather"]:
@@ -101,6 +101,6 @@ class Stages(Loops):
         grid = self.grid
         for s in self.sets:
             work = StrainAndForce(s.law, s.rotation, self.time_step)
-            arrays = (s.V, s.stress, s.pressure, s.state, s.strain, s.work)
+            arrays = (s.pressure, s.material)
             self.over_particles(work, s, arrays, (grid.tiles,), grid.nodes)
         self.clock.lap("strain and force")

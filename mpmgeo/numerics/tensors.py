@@ -94,3 +94,23 @@ def on_same_axes(p, low, middle, high):
         n * p[9] + q * p[15],
         n * p[10] + q * p[16],
     )
+
+
+@inlined
+def plus(a, s, b):
+    """Return a + s b."""
+    return (
+        a[0] + s * b[0],
+        a[1] + s * b[1],
+        a[2] + s * b[2],
+        a[3] + s * b[3],
+        a[4] + s * b[4],
+        a[5] + s * b[5],
+    )
+
+
+@inlined
+def scalar_product(a, b):
+    """Return a : b."""
+    normal = a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+    return normal + 2.0 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5])

@@ -27,7 +27,7 @@ FURTHER_FIELDS = {
     "mean_stress": "mean of the effective normal stresses [Pa]",
     "von_mises_stress": "√(3/2 s:s), s the deviator of the stress [Pa]",
     "density": "mass over volume [kg/m³]",
-    "volume": "volume [m³]",
+    "volume": "volume with what tension has opened [m³]",
 }
 """Fields of the particles that a case asks for by name."""
 

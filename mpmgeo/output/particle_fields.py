@@ -26,7 +26,7 @@ _NAMES = {
     "velocity_fluid": "Velocity Fluid",
     "porosity": "Porosity",
 }
-_ARRAYS = {"velocity": "v", "volume": "V", "stress": "stress"}
+_ARRAYS = {"velocity": "v", "stress": "stress"}
 TENSORS = {"stress": "Stress", "strain": "Strain"}
 _VECTORS = ("position", "velocity", "displacement", "external_force", "velocity_fluid")
 WITH_STRAIN = ("strain", "deviatoric_strain")
@@ -183,7 +183,8 @@ _VALUES = {
     "mean_stress": lambda solver, s, at: _mean(s.stress[at]),
     "von_mises_stress": lambda solver, s, at: np.sqrt(1.5) * _size_of_deviator(s.stress[at]),
     "mass": _mass,
-    "density": lambda solver, s, at: _mass(solver, s, at) / s.V[at],
+    "volume": lambda solver, s, at: s.volume(at),
+    "density": lambda solver, s, at: _mass(solver, s, at) / s.volume(at),
 }
 _OF_THE_FLUID = {
     "mass_fluid": lambda s, at: s.mf[at],

@@ -33,11 +33,13 @@ def last_stress(kept, row):
 
 
 def _cause(simulation, dt):
-    critical = simulation.critical_time_step
-    if dt > critical:
+    stable = simulation.stable_time_step
+    if stable == 0:
+        return f"likely cause: {_method(simulation)} is stable with no time step, try MUSL"
+    if dt > stable:
         return (
-            f"likely cause: the time step of {dt:.4g} s exceeds the critical one of "
-            f"{critical:.4g} s, try {0.5 * critical:.2g} s or less"
+            f"likely cause: the time step of {dt:.4g} s exceeds {stable:.4g} s, up to which "
+            f"{_method(simulation)} is stable, try {0.5 * stable:.2g} s or less"
         )
     lightest = simulation.nodes().mass.min(initial=np.inf) / simulation.field("mass").min()
     if lightest < 1e-6:
@@ -46,7 +48,11 @@ def _cause(simulation, dt):
             f"{lightest:.1g} of a particle's; try MUSL, or half the time step"
         )
     return (
-        f"the time step of {dt:.4g} s is below the critical one of {critical:.4g} s; "
-        "likely causes: very large loads or speeds, or particles squeezed to a fraction of their "
-        "size"
+        f"the time step of {dt:.4g} s is below {stable:.4g} s, up to which {_method(simulation)} "
+        "is stable; likely causes: very large loads or speeds, or particles squeezed to a fraction "
+        "of their size"
     )
+
+
+def _method(simulation):
+    return f"{simulation.case.stress_scheme_update} with {simulation.case.shape_function}"

@@ -1,4 +1,4 @@
-"""What the user sees of a run: a live bar or plain lines, and a table at the end."""
+"""What the user sees of a run: its time step, a live bar or plain lines, a table at the end."""
 
 import sys
 from time import perf_counter
@@ -163,6 +163,16 @@ class Progress(Watcher):
             f"compilation {self.compilation.seconds:.1f} s, "
             f"peak memory {peak_memory() / 2**20:.0f} MiB, {simulation.threads} thread(s)"
         )
+
+
+def about_step(simulation):
+    """Return the time step beside those that it may be compared with."""
+    stable = simulation.stable_time_step
+    return (
+        f"time step {simulation.time_step:.4g} s; "
+        + (f"stable up to {stable:.4g} s" if stable else "no step is stable")
+        + f", critical {simulation.critical_time_step:.4g} s"
+    )
 
 
 def peak_memory():

@@ -81,11 +81,12 @@ def message(simulation, appeared, within):
 
 
 def _cause(simulation):
-    case, dt, critical = simulation.case, simulation.time_step, simulation.critical_time_step
-    if dt > critical:
+    case, dt, stable = simulation.case, simulation.time_step, simulation.stable_time_step
+    if 0 < stable < dt:
         return (
-            f"likely cause: the time step of {dt:.4g} s exceeds the critical one of "
-            f"{critical:.4g} s, try {0.5 * critical:.2g} s or less"
+            f"likely cause: the time step of {dt:.4g} s exceeds {stable:.4g} s, up to which "
+            f"{case.stress_scheme_update} with {case.shape_function} is stable, try "
+            f"{0.5 * stable:.2g} s or less"
         )
     if case.stress_scheme_update == "USL" and case.shape_function == "linear":
         return "likely cause: linear with USL, where nodes of little mass strain too much; try MUSL"
@@ -95,6 +96,6 @@ def _cause(simulation):
         return (
             f"likely cause: {case.stress_scheme_update}, which lets a body that flies through the "
             f"cells vibrate more and more (its speed is {speed:.3g} m/s); try a time step of "
-            f"{SMALL * critical:.2g} s, or USL, which damps vibrations"
+            f"{SMALL * simulation.critical_time_step:.2g} s, or USL, which damps vibrations"
         )
     return f"likely causes: the time step of {dt:.4g} s, or a law whose flow creates energy"

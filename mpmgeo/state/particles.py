@@ -21,6 +21,15 @@ ARRAYS = (
 """Fields of a set that are arrays, if they are there, with a row for each particle."""
 
 
+OPENING = "opening"
+"""Variable of laws that let tension open the material: the strain by which it is open."""
+
+
+def column_of_opening(law):
+    """Return which of a law's variables that is, None for a law that never opens."""
+    return law.STATE.index(OPENING) if OPENING in law.STATE else None
+
+
 class Population(NamedTuple):
     """What is fixed about all particles of a case, in row order."""
 
@@ -42,7 +51,7 @@ class ParticleSet:
     x: np.ndarray  # (n, 3) position in the mesh [m]
     v: np.ndarray  # (n, 3) velocity [m/s]
     m: np.ndarray  # (n,) mass [kg]
-    V: np.ndarray  # (n,) volume [m³]
+    V: np.ndarray  # (n,) volume without openings [m³]
     stress: np.ndarray  # (n, 6) effective stress [Pa]
     half: object  # half-sizes in cells: one triple, or (n, 3)
     rotation: object = None  # objective rate: how stress follows rotation
@@ -67,6 +76,20 @@ class ParticleSet:
         self.place = None  # for loops, see `lie_in`
         self.start = np.array([0, len(self.row)])  # one heap, until the first sort
         self.chunk = cut(self.start)
+
+    @property
+    def material(self):
+        """Return what an update of the material needs: V, stress, m, state, strain, work.
+
+        The masses only where they bound what tension opens, that is for `GRAINS`.
+        """
+        m = self.m if getattr(self.law, "GRAINS", False) else None
+        return self.V, self.stress, m, self.state, self.strain, self.work
+
+    def volume(self, at=slice(None)):
+        """Return the volumes [m³] of the particles `at`, with what tension has opened."""
+        column = column_of_opening(self.law)
+        return self.V[at] if column is None else self.V[at] * np.exp(self.state[at, column])
 
     def lie_in(self, grid):
         """Note where the particles lie in the blocks of a grid, for loops over them.

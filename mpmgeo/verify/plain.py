@@ -10,25 +10,17 @@ Source: Sulsky, Zhou and Schreyer (1995), Comput. Phys. Commun. 87, 236–252, s
 """
 
 from math import floor, sqrt
-from typing import NamedTuple
 
 import numpy as np
 
-from mpmgeo.boundaries.planes import FIXED, SLIDING
+from mpmgeo.mpm.core.opening import confine
 from mpmgeo.mpm.core.point import advance
 from mpmgeo.mpm.schemes import musl, usf, usl
 from mpmgeo.numerics.jit import compiled, inlined
 from mpmgeo.shapes.shape import stencil, width
+from mpmgeo.verify.dense_grid import Box, free_components
 
 ZERO = (0.0, 0.0, 0.0)
-
-
-class Box(NamedTuple):
-    """The mesh, and how many rows of nodes the dense grid has around it."""
-
-    cell: tuple
-    cells: tuple
-    ghosts: int
 
 
 @inlined
@@ -137,17 +129,21 @@ def held(free, n, a):
 
 
 @compiled
-def gather(shape, box, law, rotation, rows, half, x, v, material, A, drift, U, dt, h):
+def gather(shape, box, law, rotation, rows, half, x, v, own, nodes, A, drift, dt, h):
     """Change v by the nodal A, move x with `drift`, strain with U; what is None is left out.
 
-    `law` None: no strain; `material`: volumes, stresses, variables of the law.
+    `law` None: no strain; `own`: masses or None, volumes, stresses, variables of the law;
+    `nodes`: M and U.
     """
     S = width(shape)
+    m, V, stress, state = own
+    M, U = nodes
     for p in rows:
         I, wx = stencil_along(0, shape, box, half, x, p)
         J, wy = stencil_along(1, shape, box, half, x, p)
         K, wz = stencil_along(2, shape, box, half, x, p)
         a = u = dx = dy = dz = ZERO
+        mass = 0.0
         for i in range(S):
             for j in range(S):
                 for k in range(S):
@@ -161,21 +157,23 @@ def gather(shape, box, law, rotation, rows, half, x, v, material, A, drift, U, d
                         gx, gy, gz = slopes(wx, wy, wz, i, j, k, box.cell)
                         nodal = vector(U, n)
                         dx, dy, dz = plus(dx, gx, nodal), plus(dy, gy, nodal), plus(dz, gz, nodal)
+                        mass += w * M[n]
+        if law is not None:
+            confine(law, box.mesh, x, mass, m, V, state, p)
+            strain(law, rotation, dx, dy, dz, V, stress, state, p, dt)
         for c in range(3):
             v[p, c] += h * a[c]
             x[p, c] += dt * u[c]
-        if law is not None:
-            strain(law, rotation, dx, dy, dz, material, p, dt)
 
 
 @inlined
-def strain(law, rotation, dx, dy, dz, material, p, dt):
+def strain(law, rotation, dx, dy, dz, V, stress, state, p, dt):
     """Update the material of particle p; `dx` … are the columns of its velocity gradient."""
     x, y, z = plus(ZERO, dt, dx), plus(ZERO, dt, dy), plus(ZERO, dt, dz)
     xy, yz, xz = 0.5 * (x[1] + y[0]), 0.5 * (y[2] + z[1]), 0.5 * (z[0] + x[2])
     ε = x[0], y[1], z[2], xy, yz, xz
     W = 0.5 * (y[0] - x[1]), 0.5 * (z[1] - y[2]), 0.5 * (z[0] - x[2])
-    advance(law, rotation, ε, W, *material, None, None, p, dt)
+    advance(law, rotation, ε, W, V, stress, state, None, None, p, dt)
 
 
 @compiled
@@ -189,21 +187,6 @@ def leave(box, x, active):
                 active[p] = False
                 left += 1
     return left
-
-
-def free_components(box, planes):
-    """Return 0 for nodal components (nx, ny, nz, 3) that a plane holds, 1 for the others."""
-    free = np.ones((*(n + 1 + 2 * box.ghosts for n in box.cells), 3))
-    kinds = ((planes.x0, planes.xn), (planes.y0, planes.yn), (planes.z0, planes.zn))
-    for axis, (lower, upper) in enumerate(kinds):
-        nodes = np.moveaxis(free, axis, 0)
-        first, last = nodes[: box.ghosts + 1], nodes[box.ghosts + box.cells[axis] :]
-        for slab, kind in ((first, lower), (last, upper)):
-            if kind == FIXED:
-                slab[:] = 0.0
-            elif kind == SLIDING:
-                slab[..., axis] = 0.0
-    return free
 
 
 class PlainSolver:
@@ -220,7 +203,7 @@ class PlainSolver:
         self.local = solver.damping[0].α if solver.damping else None
         self.cutoff = solver.cutoff
         mesh = solver.grid.mesh
-        self.box = Box(mesh[:3], mesh[6:], ghosts=(width(solver.shape) + 1) // 2)
+        self.box = Box(mesh, mesh[:3], mesh[6:], ghosts=(width(solver.shape) + 1) // 2)
         self.free = free_components(self.box, solver.planes)
         self.M = np.zeros(self.free.shape[:3])
         self.P, self.F, self.U, self.A = (np.zeros_like(self.free) for _ in range(4))
@@ -291,8 +274,9 @@ class PlainSolver:
 
     def _gather(self, h, A, drift, strains=False):
         for (law, rotation, rows), state in zip(self.sets, self.state, strict=True):
+            m = self.m if getattr(law, "GRAINS", False) else None
+            own = m, self.V, self.stress, state
             gather(
                 *(self.shape, self.box, law if strains else None, rotation, rows, self.half),
-                *(self.x, self.v, (self.V, self.stress, state), A, drift, self.U),
-                *(self.time_step, h),
+                *(self.x, self.v, own, (self.M, self.U), A, drift, self.time_step, h),
             )

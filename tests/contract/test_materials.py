@@ -93,7 +93,7 @@ def test_symbols(law):
 def test_update_is_registered_in_the_file_of_the_law(law):
     names = list(inspect.signature(update_stress).parameters)
     assert names == ["law", "stress", "strain", "state", "dt"]
-    assert type(sample(law).symbols).__module__ == law.__module__
+    assert update_stress.find(type(sample(law).symbols)).__module__ == law.__module__
 
 
 @LAW

@@ -47,7 +47,8 @@ def simulations(monkeypatch):
 
         def __init__(self, case, output=None, threads=None):
             self.case, self.output, self.threads = case, output, threads
-            self.time_step, self.critical_time_step = case.time_step, 1e-2
+            self.time_step = case.time_step
+            self.critical_time_step, self.stable_time_step = 2e-2, 1e-2
             self.messages = ["a note of the simulation"]
             self.has_run = False
             made.append(self)
@@ -119,13 +120,21 @@ def test_strict_makes_warnings_errors(case_file, simulations, tmp_path, capsys):
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.parametrize("mode", [[], ["--check"]])
+def test_tells_the_time_step_and_the_stable_one(case_file, simulations, capsys, mode):
+    assert cli.main(["case.json", "--output", "out", *mode]) == cli.DONE
+    step = json.loads(case_file.read_text())["time_step"]
+    expected = f"note: time step {step:.4g} s; stable up to 0.01 s, critical 0.02 s"
+    assert expected in capsys.readouterr().err
+
+
 def test_strict_makes_lint_errors(case_file, simulations, tmp_path, capsys):
     case = json.loads(case_file.read_text())
     case_file.write_text(json.dumps(case | {"time_step": 0.05}))
     assert cli.main(["case.json", "--output", "out"]) == cli.DONE
-    assert "warning: time_step: 0.05 s exceeds the critical" in text_of(capsys)
+    assert "warning: time_step: 0.05 s exceeds 0.01 s" in text_of(capsys)
     assert cli.main(["case.json", "--strict", "--output", "strict"]) == cli.BAD_INPUT
-    assert "error: time_step: 0.05 s exceeds the critical" in text_of(capsys)
+    assert "error: time_step: 0.05 s exceeds 0.01 s" in text_of(capsys)
     assert not (tmp_path / "strict").exists()
 
 

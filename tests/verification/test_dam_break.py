@@ -57,6 +57,4 @@ def test_finer_cells():
     assert 0.05 < found["ahead"].mean() < 0.10
     assert found["ahead"].max() < 0.16
     assert found["late"][1:].std() < 0.04
-    off = np.abs(found["off"])
-    assert off[:-1].max() < 0.025
-    assert off[-1] < 0.06, "a drop may still fall along the wall"
+    assert np.abs(found["off"]).max() < 0.03

@@ -124,7 +124,7 @@ def test_damping_takes_what_the_weight_has_done(damping, share):
 
 
 def test_what_fails_dissipates():
-    """A column of sand collapses: plastic work never falls, and with the rest closes to 5 %."""
+    """A column of sand collapses: plastic work never falls; transfers lose less than a tenth."""
     sand = {
         "type": "mohr-coulomb",
         "id": 1,
@@ -146,7 +146,7 @@ def test_what_fails_dissipates():
     rows = ledger(simulation, round(0.4 / simulation.time_step))
     assert (np.diff(rows["plastic"]) >= -1e-6 * rows["plastic"][-1]).all()
     assert rows["plastic"][-1] > 0.5 * rows["external"][-1]
-    assert abs(rows["balance"][-1]) < 0.05 * rows["external"][-1]
+    assert -0.1 * rows["external"][-1] < rows["balance"][-1] < 0
 
 
 INPUTS = Path(__file__).parents[2] / "inputs"

@@ -66,9 +66,9 @@ def test_nothing_is_told_of_bodies_that_fall_bounce_and_meet(scheme):
 
 
 def test_a_step_above_the_limit_is_blamed_first():
-    with pytest.warns(mpmgeo.CaseWarning, match="exceeds the critical"):
+    with pytest.warns(mpmgeo.CaseWarning, match="is stable here"):
         simulation, _, _ = flown("MUSL", 0.3, critical_time_step_multiplier=1.4)
-    assert "likely cause: the time step of" in told(simulation)[0]
+    assert "up to which MUSL with GIMP is stable, try" in told(simulation)[0]
 
 
 @pytest.mark.parametrize("scheme", ["USL", "MUSL", "USF"])

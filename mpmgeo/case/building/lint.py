@@ -22,6 +22,9 @@ SIGNIFICANT = 0.99
 VALUES_PER_PERIOD = 4
 """Values of a record, and time steps, that a wave needs not to be lost between them."""
 
+MARGIN = 0.9
+"""Share of the stable time step that is proposed."""
+
 COARSE = 0.01
 """Share of a cell to which the corners of a terrain should be known."""
 
@@ -45,9 +48,21 @@ def lint(simulation) -> list[str]:
 
 
 def _time_step(simulation) -> Iterator[str]:
-    step, critical = simulation.time_step, simulation.critical_time_step
-    if step > critical:
-        yield f"time_step: {step:.4g} s exceeds the critical {critical:.4g} s; the run may diverge"
+    step, stable = simulation.time_step, simulation.stable_time_step
+    critical, case = simulation.critical_time_step, simulation.case
+    key = "time_step" if case.time_step else "critical_time_step_multiplier"
+    if stable == 0 and step > critical:  # of a scheme and shape that are warned of in any case
+        yield f"{key}: {step:.4g} s exceeds the critical {critical:.4g} s; the run may diverge"
+    elif 0 < stable < step:
+        method = f"{case.stress_scheme_update} with {case.shape_function}"
+        best = f"{MARGIN * stable:.2g} s" if case.time_step else f"{MARGIN * stable / critical:.2g}"
+        longer = ""
+        if case.stress_scheme_update == "USL":
+            longer = ', or "stress_scheme_update": "MUSL"'
+        yield (
+            f"{key}: {step:.4g} s exceeds {stable:.4g} s, up to which {method} is stable here; "
+            f"the run may diverge; try {best} or less{longer}"
+        )
 
 
 def _outside(position, mesh) -> Iterator[str]:

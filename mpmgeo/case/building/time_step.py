@@ -5,6 +5,8 @@ from math import inf
 import numpy as np
 
 from mpmgeo.materials import saturation
+from mpmgeo.mpm import stability
+from mpmgeo.mpm.schemes import FILTERED
 from mpmgeo.positions import mean_edge
 
 
@@ -18,12 +20,53 @@ def critical_time_step(case, velocity):
     if case.compatibility is not None:
         return mean_edge(cell) / max(law.sound_speed() for law in case.materials)
     used = {number for body in case.body if body.active for number in body.materials}
-    fastest = np.sqrt((velocity**2).sum(axis=1).max(initial=0.0))
+    fastest = _fastest(velocity)
     laws = [law for law in case.materials if law.id in used]
     if case.n_phases == 1:
         return min((law.critical_time_step(min(cell), fastest) for law in laws), default=inf)
     steps = (saturation.critical_time_step(law, min(cell), fastest) for law in laws)
     return min(steps, default=inf)
+
+
+def _fastest(velocity):
+    """Return the largest speed [m/s] of particles moving at `velocity` (n, 3)."""
+    return np.sqrt((velocity**2).sum(axis=1).max(initial=0.0))
+
+
+def stable_time_step(case, solver, velocity):
+    """Return the longest time step [s] that a solver bears, particles moving at `velocity` (n, 3).
+
+    It knows scheme, shape, sizes of particles, edges of cells, materials and phases; 0 if there is
+    no such step, infinite without particles. It shrinks with speed as the critical one does.
+    """
+    filtered, speed = solver.scheme in FILTERED, _fastest(velocity)
+    if not stability.has_stable_step(solver.shape, filtered):
+        return 0.0
+    laws = {law.id: law for law in reversed(case.materials)}
+    steps = [inf]
+    for s in solver.sets:
+        law, half = laws[solver.population.material[s.row[0]]], np.atleast_2d(s.half).min(axis=0)
+        slopes = stability.slopes(solver.shape, filtered, half, case.mesh.cells_dimension)
+        two = case.n_phases == 2
+        wave = saturation.wave_speed(law) if two else law.sound_speed()
+        step = (_of_two_phases if two else _of_one_phase)(case, law, slopes, filtered)
+        steps.append(step * wave / (wave + speed))
+    return min(steps)
+
+
+def _of_one_phase(case, law, slopes, filtered):
+    stiffness, viscosity = law.resistance(slopes)
+    return stability.stable_time_step(stiffness / law.density, viscosity / law.density, filtered)
+
+
+def _of_two_phases(case, law, slopes, filtered):
+    """Return the step [s] with the drag of a shorter one, the one without drag."""
+    decay = law.resistance(slopes)[1] / saturation.densities(law)[0]
+    rate, step = saturation.drag_rate(law, case.conductivity_gravity), 0.0
+    for _ in range(2):
+        ω2 = saturation.frequency(law, slopes, case.pore_pressure_smoothing, rate * step)
+        step = stability.stable_time_step(ω2, decay, filtered)
+    return step
 
 
 def time_step(case, velocity):

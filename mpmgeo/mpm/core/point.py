@@ -7,6 +7,7 @@ from mpmgeo.materials.law import strain_energy, update_stress
 from mpmgeo.materials.rotation import rotate_stress
 from mpmgeo.numerics.jit import INLINED, inlined
 from mpmgeo.numerics.simd import add, lane, load_column, load_row, pack, scale, with_velocity
+from mpmgeo.state.particles import column_of_opening
 
 
 @inlined
@@ -69,19 +70,27 @@ def _compiled_state_of(law, state, p):
     return lambda law, state, p: to_fixed_tuple(state[p], count)
 
 
-def _keep_state(law, state, p, new):
-    """Put the law's variables, which follow the six stresses in `new`, back to particle p."""
+def _keep_state(law, state, old, new, p):
+    """Put the law's variables, which follow the six stresses in `new`, back to particle p.
+
+    `old`: those before. Return by how much tension has opened it, 0 for a law that never opens.
+    """
     if state is not None:
         state[p] = new[6:]
+    column = column_of_opening(law)
+    return 0.0 if column is None else new[6 + column] - old[column]
 
 
 @overload(_keep_state, jit_options=INLINED)
-def _compiled_keep_state(law, state, p, new):
+def _compiled_keep_state(law, state, old, new, p):
     # number by number: after a loop the compiler would count references, for every particle
-    numbers = range(len(law.instance_class.STATE))
-    lines = [f"    state[p, {n}] = new[{6 + n}]\n" for n in numbers]
+    lines = ["def keep(law, state, old, new, p):"]
+    for n in range(len(law.instance_class.STATE)):
+        lines.append(f" state[p, {n}] = new[{6 + n}]")
+    column = column_of_opening(law.instance_class)
+    opened = "0.0" if column is None else f"new[{6 + column}] - old[{column}]"
     scope = {}
-    exec("def keep(law, state, p, new):\n" + "".join(lines or ["    pass\n"]), scope)
+    exec("\n".join([*lines, f" return {opened}"]), scope)
     return scope["keep"]
 
 
@@ -89,21 +98,22 @@ def _compiled_keep_state(law, state, p, new):
 def advance(law, rotation, strain, spin, V, stress, state, total, work, p, dt):
     """Update volume, stress and the law's variables of particle p for a strain increment.
 
-    `rotation` None, or the objective rate by which the old stress follows the spin increment.
-    `total` None, or the strains, to which the increment is added. `work` None, or what
-    particles have stored and dissipated of the work on them [J], to which that of the step is
-    added.
+    The volume is that without openings, see `mpm.core.opening`. `rotation` None, or the objective
+    rate by which the old stress follows the spin increment. `total` None, or the strains, to which
+    the increment is added. `work` None, or what particles have stored and dissipated of the work on
+    them [J], to which that of the step is added.
     """
-    V[p] *= 1.0 + (strain[0] + strain[1] + strain[2])
     if total is not None:
         for a in range(6):
             total[p, a] += strain[a]
     old = (stress[p, 0], stress[p, 1], stress[p, 2], stress[p, 3], stress[p, 4], stress[p, 5])
     old = rotate_stress(rotation, old, spin)
-    new = update_stress(law, old, strain, _state_of(law, state, p), dt)
+    variables = _state_of(law, state, p)
+    new = update_stress(law, old, strain, variables, dt)
     for a in range(6):
         stress[p, a] = new[a]
-    _keep_state(law, state, p, new)
+    opened = _keep_state(law, state, variables, new, p)
+    V[p] *= 1.0 + (strain[0] + strain[1] + strain[2]) - opened
     if work is not None:
         _account(law, old, new, strain, V[p], work, p)
 

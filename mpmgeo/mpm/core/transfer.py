@@ -7,6 +7,7 @@ part of m that touches the ground.
 from typing import NamedTuple
 
 from mpmgeo.mpm.core.loops import visit
+from mpmgeo.mpm.core.opening import confine
 from mpmgeo.mpm.core.point import (
     advance,
     internal_force,
@@ -23,7 +24,7 @@ from mpmgeo.mpm.core.tile import (
     locate,
 )
 from mpmgeo.numerics.jit import inlined
-from mpmgeo.numerics.simd import add, axpy, load_row, pack, quarter, splat, store_row, within
+from mpmgeo.numerics.simd import add, axpy, lane, load_row, pack, quarter, splat, store_row, within
 
 
 class Scatter(NamedTuple):
@@ -68,9 +69,8 @@ class Gather(NamedTuple):
     """Move the particles with the nodes and update their stress; tells who left its block.
 
     Velocities change by h times the acceleration. With v None they stay, and positions follow the
-    velocity that `Velocity` kept. With `law` None volume and stress stay. Arrays: v, V, stress, the
-    law's variables, sum of strains, work stored and dissipated, the last three None where there are
-    none.
+    velocity that `Velocity` kept. With `law` None volume and stress stay. Arrays: v, those of
+    `ParticleSet.material`.
     """
 
     law: object
@@ -81,12 +81,12 @@ class Gather(NamedTuple):
 
 @visit.register(Gather)
 def gather(work, here, a, p):
-    v, V, stress, state, total, account = a
+    v, material = a
     n, wx, wy, wz = locate(here, p)
     value, sx, sy, sz = collect(here.source, n, here.rows, wx, wy, wz)
+    _strained(work, work.law, here, value, sx, sy, sz, material, p)
     X = _moved(work, here.x, v, value, p)
     store_row(here.x, p, X)
-    _strained(work, work.law, here.mesh, sx, sy, sz, V, stress, state, total, account, p)
     return 0 if within(in_block(here.mesh, here.origin, X), here.low, here.high) else 1
 
 
@@ -101,10 +101,12 @@ def _moved(work, x, v, value, p):
 
 
 @inlined
-def _strained(work, law, mesh, sx, sy, sz, V, stress, state, total, account, p):
+def _strained(work, law, here, value, sx, sy, sz, material, p):
     if law is not None:
-        strain = strain_increment(mesh, sx, sy, sz, work.dt)
-        spin = spin_increment(mesh, sx, sy, sz, work.dt)
+        V, stress, m, state, total, account = material
+        confine(law, here.mesh, here.x, lane(value, 6), m, V, state, p)
+        strain = strain_increment(here.mesh, sx, sy, sz, work.dt)
+        spin = spin_increment(here.mesh, sx, sy, sz, work.dt)
         advance(law, work.rotation, strain, spin, V, stress, state, total, account, p, work.dt)
 
 
@@ -131,7 +133,7 @@ def remap(work, here, a, p):
 class StrainAndForce(NamedTuple):
     """Update stress with the nodal velocity, add the internal force of the new one to the tiles.
 
-    Arrays: V, stress, pressure of a pore fluid or None, and the last three of `Gather`.
+    Arrays: pressure of a pore fluid or None, those of `ParticleSet.material`.
     """
 
     law: object
@@ -141,10 +143,11 @@ class StrainAndForce(NamedTuple):
 
 @visit.register(StrainAndForce)
 def strain_and_force(work, here, a, p):
-    V, stress, pressure, state, total, account = a
+    pressure, material = a
+    V, stress = material[0], material[1]
     n, wx, wy, wz = locate(here, p)
-    _, sx, sy, sz = collect(here.source, n, here.rows, wx, wy, wz)
-    _strained(work, work.law, here.mesh, sx, sy, sz, V, stress, state, total, account, p)
+    value, sx, sy, sz = collect(here.source, n, here.rows, wx, wy, wz)
+    _strained(work, work.law, here, value, sx, sy, sz, material, p)
     C1, C2, C3 = internal_force(here.mesh, V, stress, pressure, p)
     deposit(here.tiles[0], here.n0 + n, here.rows, wx, wy, wz, splat(0.0), C1, C2, C3)
     return 0

@@ -44,8 +44,9 @@ def parameters(law):
 
 def from_trial(law, trial, plastic=0.0):
     """Return stress (n, 6) and plastic strain (n,) that trial stresses (n, 6) return to."""
-    n = len(trial)
-    stress, state = np.array(trial), np.full((n, 1), plastic)
+    n, names = len(trial), law.symbols.STATE
+    stress, state = np.array(trial), np.zeros((n, len(names)))
+    state[:, names.index("plastic_strain")] = plastic
     nothing = (np.zeros((n, 6)), np.zeros((n, 3)), np.ones(n))
     advance_points(law.symbols, None, *nothing, stress, state, 1.0)
     return stress, state[:, 0] - plastic

@@ -6,7 +6,7 @@ import pytest
 import mpmgeo
 from mpmgeo.materials.law import update_stress
 from mpmgeo.shapes.shape import stencil, width
-from mpmgeo.verify.plain import Box, free_components
+from mpmgeo.verify.dense_grid import Box, free_components
 
 STEPS = 12
 WALLS = {"plane_X0": "free", "plane_Y0": "sliding", "plane_Z0": "fixed", "plane_Zn": "free"}
@@ -51,7 +51,7 @@ class Twin:
     def __init__(self, solver, smooth):
         self.s, self.smooth, self.steps = solver, smooth, 0
         mesh, n = solver.grid.mesh, solver.count
-        self.box = Box(mesh[:3], mesh[6:], ghosts=3)
+        self.box = Box(mesh, mesh[:3], mesh[6:], ghosts=3)
         self.planes = free_components(self.box, solver.planes).reshape(-1, 3)
         self.walls = free_components(self.box, solver.effect("fluid").walls).reshape(-1, 3)
         for name in ("x", "v", "vf", "stress", "m", "mf", "pf", "V", "pull", "half", "free"):

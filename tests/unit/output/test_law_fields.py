@@ -50,13 +50,13 @@ def test_the_variables_of_a_law_are_fields():
     water = {"type": "newtonian", "viscosity": 1.0, "bulk": 1e6, "density": 1000.0, "tensile": 0.0}
     case["materials"][0] = water | {"id": 4}
     simulation = mpmgeo.Simulation(case)
-    (wet,) = [s for s in simulation.solver.sets if s.law.STATE == ("void",)]
+    (wet,) = [s for s in simulation.solver.sets if s.law.STATE == ("opening",)]
     wet.state[:, 0] = np.arange(32)
-    void = simulation.field("void")
-    assert void.shape == (96,) and not void[:64].any()
-    assert (void[wet.row] == np.arange(32)).all()
-    with pytest.raises(KeyError, match="'void' is no field"):
-        mpmgeo.Simulation(two_blocks()).field("void")
+    opening = simulation.field("opening")
+    assert opening.shape == (96,) and not opening[:64].any()
+    assert (opening[wet.row] == np.arange(32)).all()
+    with pytest.raises(KeyError, match="'opening' is no field"):
+        mpmgeo.Simulation(two_blocks()).field("opening")
 
 
 @pytest.mark.parametrize(

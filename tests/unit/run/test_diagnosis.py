@@ -11,11 +11,12 @@ from mpmgeo.run.diagnosis import diagnose
 STRESS = [1e6, -2e6, 3e6, 4.0, 5.0, 6.0]
 
 
-def message(time_step=1e-3, critical=2e-3, lightest=1.0, last=STRESS):
+def message(time_step=1e-3, stable=2e-3, lightest=1.0, last=STRESS):
     """Return the message about particle 42 of material 7, which broke in step 120."""
     simulation = SimpleNamespace(
         time_step=time_step,
-        critical_time_step=critical,
+        stable_time_step=stable,
+        case=SimpleNamespace(stress_scheme_update="USL", shape_function="GIMP"),
         nodes=lambda: SimpleNamespace(mass=np.array([3.0, lightest])),
         field=lambda key: {"mass": np.array([1.0, 2.0])}[key],
     )
@@ -45,8 +46,12 @@ def test_stress_of_the_moment_if_no_other_is_known():
 
 def test_blames_an_unstable_time_step():
     text = message(time_step=5e-3)
-    assert "0.005 s exceeds the critical one of 0.002 s" in text
+    assert "0.005 s exceeds 0.002 s, up to which USL with GIMP is stable" in text
     assert "0.001 s or less" in text
+
+
+def test_blames_what_is_stable_with_no_step():
+    assert "USL with GIMP is stable with no time step, try MUSL" in message(stable=0.0)
 
 
 def test_blames_light_nodes():
@@ -57,4 +62,5 @@ def test_blames_light_nodes():
 @pytest.mark.parametrize("lightest", [1.0, 1e-3])
 def test_blames_loads_otherwise(lightest):
     text = message(lightest=lightest)
+    assert "0.001 s is below 0.002 s, up to which USL with GIMP is stable" in text
     assert "very large loads or speeds" in text and "little mass" not in text

@@ -10,7 +10,7 @@ from mpmgeo.case.load import load_case
 from mpmgeo.loads import Record
 
 
-def simulation_of(case, time_step=1e-3, critical_time_step=1e-2):
+def simulation_of(case, time_step=1e-3, stable_time_step=1e-2):
     """Return what lint looks at of a simulation: times, positions and bodies."""
     loaded = load_case(case)
     cell = np.array(loaded.mesh.cells_dimension)
@@ -22,7 +22,8 @@ def simulation_of(case, time_step=1e-3, critical_time_step=1e-2):
     return SimpleNamespace(
         case=loaded,
         time_step=time_step,
-        critical_time_step=critical_time_step,
+        critical_time_step=2e-2,
+        stable_time_step=stable_time_step,
         field=fields.__getitem__,
     )
 
@@ -33,7 +34,23 @@ def test_nothing_to_say_about_a_sound_case(case):
 
 def test_unstable_time_step(case):
     (warning,) = lint(simulation_of(case, time_step=0.02))
-    assert warning == "time_step: 0.02 s exceeds the critical 0.01 s; the run may diverge"
+    assert warning == (
+        "time_step: 0.02 s exceeds 0.01 s, up to which USL with GIMP is stable here; the run may "
+        'diverge; try 0.009 s or less, or "stress_scheme_update": "MUSL"'
+    )
+
+
+@pytest.mark.parametrize("scheme", ["MUSL", "USF"])
+def test_unstable_time_step_of_a_scheme_that_bears_long_ones(case, scheme):
+    (warning,) = lint(simulation_of(case | {"stress_scheme_update": scheme}, time_step=0.02))
+    assert f"{scheme} with GIMP is stable here" in warning and warning.endswith("0.009 s or less")
+
+
+def test_without_a_stable_time_step_the_critical_one_counts(case):
+    case |= {"shape_function": "linear"}
+    assert lint(simulation_of(case, time_step=0.02, stable_time_step=0.0)) == []
+    (warning,) = lint(simulation_of(case, time_step=0.03, stable_time_step=0.0))
+    assert warning == "time_step: 0.03 s exceeds the critical 0.02 s; the run may diverge"
 
 
 def test_particles_outside_the_mesh(case):
@@ -114,7 +131,7 @@ def test_records_too_coarse_for_their_content(shaken):
 
 
 def test_steps_that_skip_what_the_record_holds(shaken):
-    (warning,) = lint(simulation_of(shaken(2), time_step=0.2, critical_time_step=1))
+    (warning,) = lint(simulation_of(shaken(2), time_step=0.2, stable_time_step=1))
     assert warning.endswith("with up to 2 Hz, too fast for time steps 0.2 s apart")
 
 

@@ -14,7 +14,7 @@ def warning_of(case, **times):
 
 def test_an_automatic_step_longer_than_the_run(case):
     del case["time_step"]
-    assert warning_of(case, time_step=0.2, critical_time_step=0.8) == (
+    assert warning_of(case, time_step=0.2, stable_time_step=0.8) == (
         "time: the time step chosen from the critical one, 0.2 s, is longer than the run, 0.1 s; "
         "is a stiffness or density in other units?"
     )
