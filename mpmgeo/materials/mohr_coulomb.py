@@ -35,6 +35,7 @@ from mpmgeo.materials.mohr_coulomb_return import (
 from mpmgeo.materials.mohr_coulomb_strength import Constant, Softening, Undrained, strength
 from mpmgeo.materials.opening import square_of_flow, strain_of_opening
 from mpmgeo.materials.rotation import objective_rate
+from mpmgeo.numerics.jit import compiled, inlined
 from mpmgeo.numerics.tensors import invariants, on_same_axes, principal
 from mpmgeo.parameters import parameter
 
@@ -180,6 +181,28 @@ class MohrCoulomb(Elastic):
         return mohr_coulomb_legacy.Symbols(*super().symbols, *strengths)
 
 
+@inlined
+def flow(law, p, N, M, σc, T):
+    """Return principal stresses, plastic strains and the strain that tension opens, after `p`."""
+    s1, s2, s3 = p[0], p[1], p[2]
+    y1, y2, y3 = return_to_surface(s1, s2, s3, law.ν / (1.0 - law.ν), N, M, σc, T)
+    ε1, ε2, ε3 = lost_strain(s1 - y1, s2 - y2, s3 - y3, law.ν, law.E)
+    return y1, y2, y3, ε1, ε2, ε3, tensile_part(ε1, ε2, ε3, M) if y3 == T else 0.0
+
+
+@compiled
+def while_open(law, stress, trial, εp, θ, N, M, σc, T):
+    """Return stress and state of what is open by θ; apart from kernels, which seldom need it."""
+    was_open = strain_of_opening(law, stress, θ)
+    trial = hooke(law, trial, was_open)
+    p = principal(trial)
+    if N * p[2] - p[0] <= σc and p[2] <= T:
+        return trial + (εp, 0.0)
+    y1, y2, y3, ε1, ε2, ε3, wide = flow(law, p, N, M, σc, T)
+    square = square_of_flow(on_same_axes(p, ε1, ε2, ε3), was_open, θ, wide)
+    return on_same_axes(p, y1, y2, y3) + (εp + sqrt(2.0 / 3.0 * square), wide)
+
+
 @update_stress.register(Constant)
 @update_stress.register(Softening)
 @update_stress.register(Undrained)
@@ -191,21 +214,14 @@ def mohr_coulomb(law, stress, strain, state, dt):
     # whatever the directions: s₃ ≤ m + 2s, and N s₃ − s₁ ≤ (N − 1) m + 2s √(N² + N + 1)
     if θ == 0.0 and (N - 1.0) * m + s * (2.0 * N + 1.5) <= σc and m + 2.0 * s <= T:
         return trial + state
-    was_open = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     if θ > 0.0:
-        was_open = strain_of_opening(law, stress, θ)
-        trial = hooke(law, trial, was_open)
+        return while_open(law, stress, trial, εp, θ, N, M, σc, T)
     p = principal(trial)
-    s1, s2, s3 = p[0], p[1], p[2]
-    if N * s3 - s1 <= σc and s3 <= T:
-        return trial + (εp, 0.0)
-    y1, y2, y3 = return_to_surface(s1, s2, s3, law.ν / (1.0 - law.ν), N, M, σc, T)
-    ε1, ε2, ε3 = lost_strain(s1 - y1, s2 - y2, s3 - y3, law.ν, 1.0 / law.E)
-    wide = tensile_part(ε1, ε2, ε3, M) if y3 == T else 0.0
-    square = ε1 * ε1 + ε2 * ε2 + ε3 * ε3
-    if θ > 0.0:
-        square = square_of_flow(on_same_axes(p, ε1, ε2, ε3), was_open, θ, wide)
-    return on_same_axes(p, y1, y2, y3) + (εp + sqrt(2.0 / 3.0 * square), wide)
+    if N * p[2] - p[0] <= σc and p[2] <= T:
+        return trial + state
+    y1, y2, y3, ε1, ε2, ε3, wide = flow(law, p, N, M, σc, T)
+    εp += sqrt(2.0 / 3.0 * (ε1 * ε1 + ε2 * ε2 + ε3 * ε3))
+    return on_same_axes(p, y1, y2, y3) + (εp, wide)
 
 
 @strain_energy.register(Constant)

@@ -87,10 +87,10 @@ def return_to_surface(s1, s2, s3, r, N, M, σc, T):
 
 
 @inlined
-def lost_strain(d1, d2, d3, ν, compliance):
-    """Return the plastic strain that lets the principal stresses drop by d; `compliance` is 1/E."""
-    tr, k = ν * (d1 + d2 + d3), 1.0 + ν
-    return compliance * (k * d1 - tr), compliance * (k * d2 - tr), compliance * (k * d3 - tr)
+def lost_strain(d1, d2, d3, ν, E):
+    """Return the plastic strain that lets the principal stresses drop by d."""
+    tr, k, w = ν * (d1 + d2 + d3), 1.0 + ν, 1.0 / E
+    return w * (k * d1 - tr), w * (k * d2 - tr), w * (k * d3 - tr)
 
 
 @inlined

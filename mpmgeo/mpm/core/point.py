@@ -84,11 +84,13 @@ def _keep_state(law, state, old, new, p):
 @overload(_keep_state, jit_options=INLINED)
 def _compiled_keep_state(law, state, old, new, p):
     # number by number: after a loop the compiler would count references, for every particle
+    opening, opened = column_of_opening(law.instance_class), "0.0"
     lines = ["def keep(law, state, old, new, p):"]
     for n in range(len(law.instance_class.STATE)):
-        lines.append(f" state[p, {n}] = new[{6 + n}]")
-    column = column_of_opening(law.instance_class)
-    opened = "0.0" if column is None else f"new[{6 + column}] - old[{column}]"
+        if n == opening:  # seldom changes, and what is not written costs nothing
+            opened = f"new[{6 + n}] - old[{n}]"
+            lines.append(f" if {opened} != 0.0:")
+        lines.append(f" {' ' * (n == opening)}state[p, {n}] = new[{6 + n}]")
     scope = {}
     exec("\n".join([*lines, f" return {opened}"]), scope)
     return scope["keep"]
@@ -103,6 +105,8 @@ def advance(law, rotation, strain, spin, V, stress, state, total, work, p, dt):
     the increment is added. `work` None, or what particles have stored and dissipated of the work on
     them [J], to which that of the step is added.
     """
+    stretch = 1.0 + (strain[0] + strain[1] + strain[2])
+    V[p] *= stretch
     if total is not None:
         for a in range(6):
             total[p, a] += strain[a]
@@ -113,7 +117,8 @@ def advance(law, rotation, strain, spin, V, stress, state, total, work, p, dt):
     for a in range(6):
         stress[p, a] = new[a]
     opened = _keep_state(law, state, variables, new, p)
-    V[p] *= 1.0 + (strain[0] + strain[1] + strain[2]) - opened
+    if opened != 0.0:
+        V[p] *= 1.0 - opened / stretch
     if work is not None:
         _account(law, old, new, strain, V[p], work, p)
 
