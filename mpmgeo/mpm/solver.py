@@ -20,7 +20,7 @@ from mpmgeo.numerics.clock import Clock
 from mpmgeo.state.checked import demand, number_from, whole_from
 from mpmgeo.state.grid import Grid
 from mpmgeo.state.inspection import first_unsound, kinetic_energy
-from mpmgeo.state.particles import ParticleSet, Population
+from mpmgeo.state.particles import ParticleSet, Population, opens_under_pressure
 from mpmgeo.state.sorting import OPEN, sort
 
 COUNTERS = ("time", "steps", "gone", "peak_energy")
@@ -140,6 +140,7 @@ class Solver(Stages):
         Positions and volumes are taken back by half a step, to where the velocities are.
         """
         works = any(effect.does_work for effect in self.effects)
+        works = works or any(opens_under_pressure(s) for s in self.sets)
         if self.ledger is None and (works or not all(stores_energy(s.law) for s in self.sets)):
             return None
         here = self.tally()
