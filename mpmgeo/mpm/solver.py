@@ -230,3 +230,5 @@ class Solver(Stages):
             demand(is_sound, "grid.keys are not the blocks of the particles")
         is_sound = all(d.rows.min() >= 0 and d.rows.max() < self.count for d in self.departures)
         demand(is_sound, "departures are of particles that there are not")
+        for resumed in self.asked["resumed"]:
+            resumed(self)

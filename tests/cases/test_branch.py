@@ -82,6 +82,33 @@ def test_a_run_without_changes_records_none(snapshot):
     assert mpmgeo.Simulation.resume(snapshot, allow=["gravity"]).changes == []
 
 
+GROWING = {"gravity": {"value": [0, 0, -8.0], "time": [0.02, 0.03], "factor": [0, 1]}}
+
+
+def test_gravity_begins_to_change(snapshot):
+    """From 20 ms on it grows from nothing within 10 ms; velocities are half a step behind."""
+    case = two_blocks(**GROWING)
+    with pytest.raises(ValueError, match=re.escape("gravity[0], gravity[1], gravity[2]")):
+        mpmgeo.Simulation.resume(snapshot, case=case)
+    branch = mpmgeo.Simulation.resume(snapshot, case=case, allow=["gravity"])
+    before, mass = momentum(branch), branch.field("mass").sum()
+    assert branch.field("external_force") == pytest.approx(0, abs=1e-9 * mass)
+    branch.step(20)
+    impulse = -8.0 * (5e-3 + 9.5e-3) * mass
+    assert momentum(branch) - before == pytest.approx([0, 0, impulse], abs=1e-9)
+    assert branch.field("external_force").sum(axis=0) == pytest.approx([0, 0, -8.0 * mass])
+
+
+def test_gravity_changes_no_more(snapshot, tmp_path):
+    branch = mpmgeo.Simulation.resume(snapshot, case=two_blocks(**GROWING), allow=["gravity"])
+    branch.step(5).save("growing.npz")
+    same = mpmgeo.Simulation.resume("growing.npz")
+    assert (same.field("external_force") == branch.field("external_force")).all()
+    assert same.field("external_force").any()
+    calm = mpmgeo.Simulation.resume("growing.npz", two_blocks(**MOON), allow=["gravity"])
+    assert calm.field("external_force")[:, 2] == pytest.approx(-1.6 * calm.field("mass"))
+
+
 REFUSED = {
     "not named": (MOON, ["materials"], "is of another case, or its files have changed: gravity[2]"),
     "no key": (MOON, ["gravty"], "allow: the case has no key gravty; did you mean gravity?"),

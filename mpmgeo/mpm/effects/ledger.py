@@ -11,7 +11,8 @@ which is what they change the kinetic energy of the nodes by. What belongs to po
 and volumes is the mean of its values before and after they have moved: elastic energy, dissipation
 of the laws, and the work Σ f·x + Σ p V of what does not change, weight, loads on particles and
 given pore pressures; with USF the stresses, which lag, are continued by a step. So a vibration
-without damping has a balance of second order in the step.
+without damping has a balance of second order in the step. Where forces on particles do change,
+`effects/in_time.py` puts in what is lacking.
 """
 
 from typing import NamedTuple
@@ -90,7 +91,7 @@ def _damps_nothing(damping):
 
 
 class Ledger(Effect):
-    """Keeps a row of ENERGIES [J] every so many steps; the last of all effects.
+    """Keeps a row of ENERGIES [J] every so many steps; after all effects of a step.
 
     `is_early`: whether a step updates the stresses first, so that they are a step behind the
     positions. Effects that do work add it with `put_in`.
