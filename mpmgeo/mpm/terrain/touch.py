@@ -43,19 +43,22 @@ def locate_both(here, shift, offset, p):
     """Return where particle p's nodes begin in its tile of distances and in that of the grid, and
     its stencils; the second place and the stencils are the grid's only if `offset` is None.
     """
-    X, last = _relative(load_row(here.x, p), offset)
+    X, walls, last = _relative(here, load_row(here.x, p), offset)
     g = in_block(here.mesh, tile_origin(here.mesh, here.corner, shift), X)
-    first, wx, wy, wz = stencils(here.shape, here.half, g, last, p)
+    first, wx, wy, wz = stencils(here.shape, here.half, walls, g, last, p)
     i, j, k = int(lane(first, 0)), int(lane(first, 1)), int(lane(first, 2))
     return place(longer(here.rows), i, j, k), place(here.rows, i, j, k) * LANES, wx, wy, wz
 
 
 @inlined
-def _relative(X, offset):
-    """Return a position relative to the ground, and the last place of the first node there."""
+def _relative(here, X, offset):
+    """Return a position relative to the ground, walls and the last place of the first node there.
+
+    Ground that has moved has distances at nodes beyond the walls, too, and needs none.
+    """
     if offset is None:
-        return X, SIDE - 1.0
-    return X - pack4(offset[0], offset[1], offset[2], 0.0), 1.0 * SIDE
+        return X, here.walls, SIDE - 1.0
+    return X - pack4(offset[0], offset[1], offset[2], 0.0), None, 1.0 * SIDE
 
 
 @inlined
