@@ -18,8 +18,11 @@ and USF strain with velocities that particles brought to the nodes, as a leapfro
 
 Derived, but for Γ, which is the largest that a search over products finds, and for Δ = ⅔ Γ in USL,
 that of a node which moves by itself, else Γ; `benchmarks/stability.py` measures how close they are.
-Not covered: a particle apart from all others that is smaller than a cell, and, with hats, lattices
-on the faces of cells to round-off.
+Shapes that end at walls have rows beside walls, too, from half a half-size on; planes that hold
+nodes only take motions away.
+
+Not covered: a particle apart from all others that is smaller than a cell or nearer to a wall, and,
+with hats, lattices on the faces of cells to round-off.
 
 Source: Hughes, The Finite Element Method (1987), section 9.1, for the damped leapfrog.
 """

@@ -12,5 +12,5 @@ SHAPES = {
     "cubic-bspline": CubicBSpline(),
 }
 
-AS_MPM_GEOMECHANICS = {"linear": Linear()}
-"""Words that the program MPM-Geomechanics means otherwise."""
+AS_MPM_GEOMECHANICS = {"GIMP": Gimp(), "linear": Linear()}
+"""Shapes of the program MPM-Geomechanics, as there."""
