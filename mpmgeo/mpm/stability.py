@@ -97,7 +97,7 @@ def rows(shape, filtered, l):
     ends = (*ends, *((l + end) % 1.0 for end in ends))
     cases = [(length, end, None) for length in LENGTHS for end in ends]
     if cuts(shape):
-        beside = (NEAREST * l, l, *(end for end in ends if end > NEAREST * l))
+        beside = (l, *(max(end, NEAREST * l) for end in ends))
         cases += [(length, end, (0.0, inf)) for length in LENGTHS for end in beside]
         cases += [(1, l, (0.0, 1.0))]
     found = [_operators(shape, filtered, l, *case) for case in cases]

@@ -19,10 +19,13 @@ A particle with a gap need not be looked at until the nodes near the ground have
 
 from typing import NamedTuple
 
+from numba.core.types import NoneType
+from numba.extending import overload
+
 from mpmgeo.mpm.core.loops import is_idle, visit
 from mpmgeo.mpm.core.tile import collect_value, deposit_value, half_size, in_block, locate, stencils
 from mpmgeo.mpm.terrain.ground import level_at, tile_origin
-from mpmgeo.numerics.jit import inlined
+from mpmgeo.numerics.jit import INLINED, inlined
 from mpmgeo.numerics.simd import LANES, lane, load_row, pack, pack4
 from mpmgeo.state.layout import SIDE, place, volume
 
@@ -43,22 +46,31 @@ def locate_both(here, shift, offset, p):
     """Return where particle p's nodes begin in its tile of distances and in that of the grid, and
     its stencils; the second place and the stencils are the grid's only if `offset` is None.
     """
-    X, walls, last = _relative(here, load_row(here.x, p), offset)
+    X, last = _relative(load_row(here.x, p), offset)
     g = in_block(here.mesh, tile_origin(here.mesh, here.corner, shift), X)
-    first, wx, wy, wz = stencils(here.shape, here.half, walls, g, last, p)
+    first, wx, wy, wz = stencils(here.shape, here.half, walls_at(here, offset), g, last, p)
     i, j, k = int(lane(first, 0)), int(lane(first, 1)), int(lane(first, 2))
     return place(longer(here.rows), i, j, k), place(here.rows, i, j, k) * LANES, wx, wy, wz
 
 
 @inlined
-def _relative(here, X, offset):
-    """Return a position relative to the ground, walls and the last place of the first node there.
-
-    Ground that has moved has distances at nodes beyond the walls, too, and needs none.
-    """
+def _relative(X, offset):
+    """Return a position relative to the ground, and the last place of the first node there."""
     if offset is None:
-        return X, here.walls, SIDE - 1.0
-    return X - pack4(offset[0], offset[1], offset[2], 0.0), None, 1.0 * SIDE
+        return X, SIDE - 1.0
+    return X - pack4(offset[0], offset[1], offset[2], 0.0), 1.0 * SIDE
+
+
+def walls_at(here, offset):
+    """Return where shapes end; ground that has moved has distances beyond the walls, too."""
+    return here.walls if offset is None else None
+
+
+@overload(walls_at, jit_options=INLINED)
+def _walls_at(here, offset):
+    if isinstance(offset, NoneType):
+        return lambda here, offset: here.walls
+    return lambda here, offset: None
 
 
 @inlined
