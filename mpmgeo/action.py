@@ -18,7 +18,7 @@ class Action:
 
     The class variables: `key`, the key at the top of the case, with one sentence, `about`;
     `is_several`: a case holds any number of it, as a list or as an object with names;
-    `may_be_list`: each may be written as the list of its values, without keys; `switch`: the key of
+    `may_be_list`: each may be the list of its required values, without keys; `switch`: the key of
     its own that turns it on, without which nothing of it is read; `needs_two_phases`: without
     effect with one; `one_phase_only`: why it does not go with two, "" if it does; `called`: what
     the names of entries in a list begin with, if it has names; `in_mesh`: keys of its points that
@@ -34,7 +34,8 @@ class Action:
     - `effect(actions, mesh)`: what all of the case's together do during a step,
 
     or it is bound to the solver in `case/building/`. By then all positions, its own and those that
-    it is given, are in coordinates of the mesh.
+    it is given, are in coordinates of the mesh. The two forces of an `InTime` are multiplied by the
+    factor in time of its `course`, step by step, unless that is None.
     """
 
     key: ClassVar[str]

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 HOOKS = (
     *("after_sort", "begin", "before_nodes", "after_nodes", "after_remap", "before_gather"),
-    *("after_gather", "end", "stopped", "keeping", "cutting", "news"),
+    *("after_gather", "end", "stopped", "resumed", "keeping", "cutting", "news"),
 )
 """Methods that a solver calls in or between steps."""
 
@@ -54,6 +54,9 @@ class Effect:
 
     def stopped(self, solver):
         """The particles have been stopped."""
+
+    def resumed(self, solver):
+        """The solver has taken a state from which it goes on."""
 
     def keeping(self, walls):
         """Return those of the planes, `walls`, that particles do not pass, as far as it knows."""

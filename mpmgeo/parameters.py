@@ -23,6 +23,7 @@ def parameter(
     key=None,
     several=False,
     names=None,
+    last=False,
 ):
     """Return the dataclass field of one JSON key.
 
@@ -31,8 +32,8 @@ def parameter(
     words; `file` marks the name of a file, resolved against the case's folder; `place` marks a
     position, or several, in the user's coordinates; `key` is the JSON key where it is not the name
     of the field; `several`: a list of objects is accepted in the place of one; `names`: the key of
-    the entries of the case whose names are accepted in the place of a number. Without a `default`
-    the key is required.
+    the entries of the case whose names are accepted in the place of a number; `last`: the key comes
+    after those of the classes that inherit it. Without a `default` the key is required.
     """
     bounds = {"above": above, "minimum": minimum, "below": below, "maximum": maximum}
     metadata = {
@@ -45,6 +46,7 @@ def parameter(
         "key": key,
         "several": several,
         "names": names,
+        "last": last,
     }
     return field(default=default, metadata=metadata, kw_only=True)
 

@@ -1,6 +1,6 @@
 """The canonical form of what a case says: one way to write each value, defaults filled in."""
 
-from mpmgeo.case.kinds import declared, word_of
+from mpmgeo.case.kinds import declared, listed, word_of
 
 
 def plain(value):
@@ -15,4 +15,5 @@ def plain(value):
         item = getattr(value, field.name)
         if item is not None:
             result[key] = plain(item)
-    return list(result.values()) if getattr(value, "may_be_list", False) else result
+    keys = listed(type(value))
+    return list(result.values()) if keys and result.keys() == keys.keys() else result

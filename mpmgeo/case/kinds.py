@@ -21,8 +21,9 @@ class Kind(NamedTuple):
     """One of number, integer, boolean, text, file, free, object, list (any length), fixed (length),
     map (any names).
 
-    `item`: kind of the entries of list, fixed and map; `classes`: the dataclasses an object may be;
-    `is_nullable`: whether an entry may be null.
+    `item`: kind of the entries of list, fixed and map; `classes`: the dataclasses an object may be,
+    with fixed those of an object that may stand in its place; `is_nullable`: whether an entry may
+    be null.
     """
 
     name: str
@@ -63,6 +64,8 @@ def kind_of(annotation) -> Kind:
             return kinds[0]
         if all(kind.name == "object" for kind in kinds):
             return Kind("object", classes=sum((kind.classes for kind in kinds), ()))
+        if [kind.name for kind in kinds] == ["fixed", "object"]:
+            return kinds[0]._replace(classes=kinds[1].classes)
     if origin is dict and arguments[0] is str:
         return Kind("map", kind_of(arguments[1]))
     if origin is tuple and arguments[-1] is Ellipsis:
@@ -75,13 +78,24 @@ def kind_of(annotation) -> Kind:
 
 @cache
 def declared(cls) -> tuple[Declared, ...]:
-    """Return the JSON keys of a dataclass in the order of their declaration."""
+    """Return the JSON keys of a dataclass in the order of their declaration, the last ones last."""
     hints = get_type_hints(cls)
     return tuple(
         Declared(item.metadata["key"] or item.name, kind_of(hints[item.name]), item)
-        for item in fields(cls)
+        for item in sorted(fields(cls), key=lambda item: bool(item.metadata.get("last")))
         if "doc" in item.metadata
     )
+
+
+def listed(cls) -> dict[str, int]:
+    """Return the keys of a class whose objects may be lists of their values, with their places.
+
+    They are those that are required; there are none for other classes.
+    """
+    if not getattr(cls, "may_be_list", False):
+        return {}
+    keys = [item.key for item in declared(cls) if item.is_required]
+    return {key: place for place, key in enumerate(keys)}
 
 
 def containers(cls, place=()) -> Iterator[tuple[tuple[str, ...], tuple[type, ...]]]:

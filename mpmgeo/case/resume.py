@@ -15,6 +15,8 @@ SETTLED = (
 )
 """Keys whose effect is in the particles of a snapshot, so that they cannot change any more."""
 
+LEDGER = "results.energy"
+
 SETTLED_OF_MATERIALS = ("id", "type", "density", "density_fluid", "porosity")
 
 
@@ -39,6 +41,11 @@ def branch_of(path, facts, case=None, allow=()):
         raise ValueError(f"{path}: is no snapshot of a run") from None
     allow = _known([allow] if isinstance(allow, str) else allow, {**before, **after})
     found = differences(old, new)
+    if any(key.startswith(LEDGER) and None in (before.get(key), after.get(key)) for key in found):
+        raise ValueError(
+            f"{path}: {LEDGER} can neither be added nor left out: the balance is a part of the "
+            "snapshot, and of the work that its particles know of"
+        )
     strange = [key for key in found if not _is_within(key, allow)]
     if strange:
         named = ", ".join(strange[:MOST_DIFFERENCES])

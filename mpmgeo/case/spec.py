@@ -14,7 +14,7 @@ from mpmgeo.bodies import BODIES
 from mpmgeo.boundaries.planes import BoundaryConditions
 from mpmgeo.boundaries.terrain import TerrainContact
 from mpmgeo.damping import DAMPINGS, NoDamping
-from mpmgeo.loads import LOADS
+from mpmgeo.loads import LOADS, Gravity
 from mpmgeo.materials import LAWS
 from mpmgeo.mpm.schemes import SCHEMES
 from mpmgeo.output.fields import (
@@ -220,7 +220,9 @@ class Settings:
     n_threads: int | None = parameter(
         "Number of threads; absent or 0: all processors", minimum=0, default=None
     )
-    gravity: Vector = parameter("Acceleration of gravity", unit="m/s²", default=(0.0, 0.0, 0.0))
+    gravity: Vector | Gravity = parameter(
+        "Acceleration of gravity", unit="m/s²", default=(0.0, 0.0, 0.0)
+    )
     save_state: bool = parameter(
         "Whether the final stresses are saved, in particle_stress_data.json", default=False
     )
@@ -243,6 +245,14 @@ class Settings:
         default=NoDamping(),
         several=True,
     )
+
+    @property
+    def largest_gravity(self) -> Vector:
+        """Return the acceleration of gravity [m/s²] where it is largest."""
+        if isinstance(self.gravity, tuple):
+            return self.gravity
+        factor = 1.0 if self.gravity.course is None else self.gravity.course.largest
+        return tuple(factor * g for g in self.gravity.value)
 
     @property
     def dampings(self) -> tuple[Damping, ...]:

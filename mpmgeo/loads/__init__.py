@@ -3,6 +3,8 @@
 from mpmgeo.loads.base_acceleration import BaseAcceleration
 from mpmgeo.loads.box import BoxLoad
 from mpmgeo.loads.coupling import HydroMechanicalCoupling
+from mpmgeo.loads.gravity import Gravity
+from mpmgeo.loads.in_time import InTime
 from mpmgeo.loads.point import PointLoad
 from mpmgeo.loads.pore_pressure import (
     InitialPressureBox,
@@ -30,7 +32,9 @@ __all__ = [
     "LOADS",
     "BaseAcceleration",
     "BoxLoad",
+    "Gravity",
     "HydroMechanicalCoupling",
+    "InTime",
     "InitialPressureBox",
     "InitialPressureMaterial",
     "PointLoad",

@@ -1,11 +1,13 @@
 """What acts on the particles in a box: a force that they share."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
 
 from mpmgeo.action import Action
+from mpmgeo.loads.in_time import InTime
 from mpmgeo.parameters import Vector, parameter
 from mpmgeo.region import Box
 
@@ -19,8 +21,18 @@ class ActionInBox(Action, Box):
 
 
 @dataclass(frozen=True)
-class BoxLoad(ActionInBox):
-    """A constant total force, shared equally by the particles that start inside a closed box."""
+class ForceInBox(ActionInBox, InTime):
+    """A force on the particles that start in a closed box, constant or with a factor in time."""
+
+    def problems(self) -> Iterator[tuple[str, str]]:
+        """Yield (key, message) for what is wrong with the box and with the factor."""
+        yield from ActionInBox.problems(self)
+        yield from InTime.problems(self)
+
+
+@dataclass(frozen=True)
+class BoxLoad(ForceInBox):
+    """A total force, shared equally by the particles that start inside a closed box."""
 
     key: ClassVar[str] = "load_distributed_box"
     about: ClassVar[str] = "Forces shared by the particles in a box"
@@ -28,7 +40,7 @@ class BoxLoad(ActionInBox):
     load: Vector = parameter("Total force", unit="N")
 
     def particle_force(self, position: np.ndarray) -> np.ndarray:
-        """Return the force (n, 3) [N] on particles that start at `position` (n, 3) [m].
+        """Return the force (n, 3) [N] on particles that start at `position` (n, 3) [m], times one.
 
         Without a particle in the box all forces are zero.
         """

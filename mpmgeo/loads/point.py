@@ -7,6 +7,7 @@ import numpy as np
 
 from mpmgeo.action import Action
 from mpmgeo.effect import Effect
+from mpmgeo.loads.in_time import InTime
 from mpmgeo.naming import GHOSTS
 from mpmgeo.parameters import Placed, Vector, parameter
 from mpmgeo.positions import resolution
@@ -20,32 +21,32 @@ REACH = 1.5
 
 
 @dataclass(frozen=True)
-class PointLoad(Action, Placed):
-    """A constant force on the node nearest to a point."""
+class PointLoad(Action, Placed, InTime):
+    """A force on the node nearest to a point."""
 
     key: ClassVar[str] = "nodal_point_load"
     about: ClassVar[str] = "Forces on single nodes, each [[x, y, z], [Fx, Fy, Fz]]"
     may_be_list: ClassVar[bool] = True
-    in_mesh: ClassVar[tuple[str, ...]] = ("position",)
+    in_mesh: ClassVar[tuple[str, ...]] = ("point",)
 
-    position: Vector = parameter("Point whose nearest node carries the force", unit="m", place=True)
+    point: Vector = parameter("Point whose nearest node carries the force", unit="m", place=True)
     force: Vector = parameter("Force", unit="N")
 
     def node(self, cell: np.ndarray) -> np.ndarray:
         """Return the index (3,) of the nearest node, counted with two ghost layers.
 
-        The position is that in the mesh, `cell` (3,) the size of its cells [m]; halfway between two
+        The point is that in the mesh, `cell` (3,) the size of its cells [m]; halfway between two
         nodes the upper one is taken.
         """
-        slack = np.maximum(ROUND_OFF, resolution(self.zero, self.position) / cell)
-        return np.floor(np.array(self.position) / cell + 0.5 + slack).astype(np.int64) + GHOSTS
+        slack = np.maximum(ROUND_OFF, resolution(self.zero, self.point) / cell)
+        return np.floor(np.array(self.point) / cell + 0.5 + slack).astype(np.int64) + GHOSTS
 
     def idle(self, position: np.ndarray, body: np.ndarray, cell: np.ndarray) -> str | None:
         """Return that no particle is near, None if one is."""
-        near = (np.abs(position - self.position) / cell < REACH).all(axis=1)
+        near = (np.abs(position - self.point) / cell < REACH).all(axis=1)
         if near.any():
             return None
-        place = np.add(self.position, self.zero).tolist()
+        place = np.add(self.point, self.zero).tolist()
         return f"no particle near {place}; the force has no effect until one comes"
 
     @classmethod
@@ -55,17 +56,23 @@ class PointLoad(Action, Placed):
             return None
         cell = np.array([mesh.hx, mesh.hy, mesh.hz])
         nodes = [load.node(cell) - GHOSTS for load in loads]
-        return PointLoads(nodes, [load.force for load in loads])
+        courses = [load.course for load in loads]
+        return PointLoads(nodes, [load.force for load in loads], courses)
 
 
 class PointLoads(Effect):
-    """Constant forces (k, 3) [N] on the nodes of index (k, 3)."""
+    """Forces (k, 3) [N] on the nodes of index (k, 3).
+
+    `courses` (k,): the factor in time of each, None for one that is constant.
+    """
 
     name = "point loads"
 
-    def __init__(self, node, force):
+    def __init__(self, node, force, courses=()):
         self.node = np.asarray(node, np.int64)
         self.force = np.asarray(force, float)
+        self._whole = self.force
+        self._courses = [(k, course) for k, course in enumerate(courses) if course is not None]
         self._keys = None
 
     def _find(self, grid):
@@ -86,9 +93,17 @@ class PointLoads(Effect):
                     self._record[index] = block * NODES + inner(*self.node[index] % SIDE)
                     break
 
+    def _scale(self, t):
+        """Give the forces their values at time t [s]."""
+        if self._courses:
+            self.force = self._whole.copy()
+        for k, course in self._courses:
+            self.force[k] *= course.at(t)
+
     def before_nodes(self, solver, task):
         """Add the forces to the tiles; one on a node that no tile covers does nothing."""
         grid = solver.grid
+        self._scale(solver.time)
         if self._keys is not grid.keys:
             self._find(grid)
         covered = self._owner >= 0

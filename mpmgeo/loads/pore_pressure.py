@@ -6,7 +6,7 @@ from typing import ClassVar
 import numpy as np
 
 from mpmgeo.action import Action
-from mpmgeo.loads.box import ActionInBox
+from mpmgeo.loads.box import ActionInBox, ForceInBox
 from mpmgeo.parameters import Vector, parameter
 
 
@@ -60,7 +60,7 @@ class InitialPressureMaterial(Action):
 
 
 @dataclass(frozen=True)
-class PressureForceBox(ActionInBox):
+class PressureForceBox(ForceInBox):
     """A force on the pore fluid of every particle that starts in a closed box."""
 
     key: ClassVar[str] = "pressure_force_box"

@@ -11,10 +11,12 @@ from typing import ClassVar
 import numpy as np
 
 from mpmgeo.action import Action
-from mpmgeo.loads.table import read_table
+from mpmgeo.loads.table import Form, read_table
 from mpmgeo.naming import PLANES, name_problems
 from mpmgeo.parameters import Components, Placed, Vector, parameter
 from mpmgeo.region import turned, within
+
+FORM = Form("three velocities", may_be_free=True)
 
 
 @dataclass(frozen=True)
@@ -104,7 +106,7 @@ class PrescribedVelocity(Action, Placed):
         if self.file is None:
             constant = [nan if v is None else v for v in self.velocity]
             return Motion(np.zeros(1), np.array([constant], float))
-        table = read_table(self.file, "velocities", may_be_free=True)
+        table = read_table(self.file, FORM)
         if np.isnan(table.values).all():
             raise ValueError(f"{self.file}: all components are free")
         return Motion(table.time, table.values)

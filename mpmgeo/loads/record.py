@@ -7,7 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from mpmgeo.loads.table import read_table
+from mpmgeo.loads.table import Form, read_table
+
+FORM = Form("three accelerations")
 
 
 @dataclass(frozen=True)
@@ -48,5 +50,5 @@ def read_record(path: Path | str, header: bool = True) -> Record:
 
     With `header` the first line is dropped. Raises ValueError as `read_table` does.
     """
-    table = read_table(path, "accelerations", header)
+    table = read_table(path, FORM, header)
     return Record(*table)

@@ -1,5 +1,6 @@
-"""Read a text file of times and three values each."""
+"""Read a text file of times and one value or more each."""
 
+import re
 from pathlib import Path
 from typing import NamedTuple
 
@@ -8,47 +9,76 @@ import numpy as np
 FREE = ("", "null")
 """What stands in a column of components that are not prescribed."""
 
+MOST_NAMED = 8
+"""Columns of a heading that a message shows."""
+
+LONGEST = 1000
+"""Letters of a heading that are looked at."""
+
+
+class Form(NamedTuple):
+    """What a file holds: `what`, as in "three velocities", in `count` columns beside the time.
+
+    `may_be_free`: columns may be empty, or null, in all lines; `names`: of the columns, where a
+    heading has to have them.
+    """
+
+    what: str
+    count: int = 3
+    may_be_free: bool = False
+    names: tuple[str, ...] = ()
+
+
+ONE = Form("one number", 1)
+
 
 class Table(NamedTuple):
-    """time (m,) [s], increasing; values (m, 3), NaN in free columns; warnings about the file."""
+    """time (m,) [s], increasing; values (m, count), NaN in free columns; warnings on the file."""
 
     time: np.ndarray
     values: np.ndarray
     warnings: tuple[str, ...]
 
 
-def read_table(
-    path: Path | str, what: str, header: bool | None = None, may_be_free: bool = False
-) -> Table:
-    """Read the columns time [s] and x, y, z of a quantity, `what`, from a text file.
+def read_table(path: Path | str, form: Form, header: bool | None = None) -> Table:
+    """Read the columns time [s] and values of a form from a text file.
 
     Columns are separated by commas, semicolons, tabs or blanks, further columns are ignored, as
     are empty lines. With `header` the first line is dropped, with None unless it holds numbers.
-    With `may_be_free` columns may be empty, or null, in all lines. Raises ValueError naming file
-    and line if the file is missing, empty or malformed, or if time does not increase.
+    Raises ValueError naming file and line if the file is missing, empty or malformed, or if time
+    does not increase.
     """
     lines = _text(path).split("\n")
     warnings = []
-    if header and _is_row(lines[0], may_be_free):
+    if header and _is_row(lines[0], form):
         warnings.append(
             f"{path}: the first line holds numbers but was dropped as heading; "
             'say "header": false to keep it'
         )
-    if header or (header is None and not _is_row(lines[0], may_be_free)):
+    if header or (header is None and not _is_row(lines[0], form)):
+        _check_heading(path, lines[0], form.names)
         lines[0] = ""
     numbers = [number for number, line in enumerate(lines) if line.strip()]
     if not numbers:
-        raise ValueError(f"{path}: no line with time and three {what}")
+        raise ValueError(f"{path}: no line with time and {form.what}")
     try:
-        rows = np.array([_row(lines[number], may_be_free) for number in numbers])
+        rows = np.array([_row(lines[number], form) for number in numbers])
     except ValueError:
-        number = next(n for n in numbers if not _is_row(lines[n], may_be_free))
+        number = next(n for n in numbers if not _is_row(lines[n], form))
         hint = '; a heading needs "header": true' if number == 0 and header is False else ""
-        raise ValueError(
-            _at(path, number) + _explain(lines[number], what, may_be_free) + hint
-        ) from None
+        raise ValueError(_at(path, number) + _explain(lines[number], form) + hint) from None
     _check(path, lines, numbers, rows)
-    return Table(rows[:, 0].copy(), np.where(rows[:, 4:], np.nan, rows[:, 1:4]), tuple(warnings))
+    values, free = np.split(rows[:, 1:], 2, axis=1)
+    return Table(rows[:, 0].copy(), np.where(free, np.nan, values), tuple(warnings))
+
+
+def _check_heading(path, line, names):
+    """Raise ValueError for a heading, units in brackets apart, that names other columns."""
+    bare = re.sub(r"\[.*?\]|\(.*?\)", "", line[:LONGEST].lower()).lstrip("# \t")
+    found = tuple(word.strip(' \t\r"') for word in _columns(bare, len(names)))
+    if line.strip() and found != names:
+        given, needed = ", ".join(_columns(line, MOST_NAMED)).strip()[:60], ", ".join(names)
+        raise ValueError(_at(path, 0) + f"the columns are {given!r}; needed: {needed}")
 
 
 def _check(path, lines, numbers, rows):
@@ -56,7 +86,7 @@ def _check(path, lines, numbers, rows):
     if infinite.any():
         number = numbers[infinite.argmax()]
         raise ValueError(_at(path, number) + f"not all numbers are finite: {lines[number]!r}")
-    free = rows[:, 4:]
+    free = rows[:, 1 + rows.shape[1] // 2 :]
     mixed = (free != free[0]).any(axis=1)
     if mixed.any():
         number = numbers[mixed.argmax()]
@@ -79,21 +109,23 @@ def _text(path):
         raise ValueError(f"{path}: cannot be read ({problem.strerror})") from None
 
 
-def _columns(line):
-    return line.split(";" if ";" in line else "," if "," in line else None)[:4]
+def _columns(line, count):
+    return line.split(";" if ";" in line else "," if "," in line else None)[:count]
 
 
-def _row(line, may_be_free):
+def _row(line, form):
     """Return time and values of a line, 0 for free ones, and 1 for each value that is free."""
-    time, *values = _columns(line)
-    free = [may_be_free and word.strip() in FREE for word in values]
-    x, y, z = (0.0 if idle else float(word) for word, idle in zip(values, free, strict=True))
-    return float(time), x, y, z, *free
+    time, *words = _columns(line, 1 + form.count)
+    if len(words) < form.count:
+        raise ValueError("too few columns")
+    free = [form.may_be_free and word.strip() in FREE for word in words]
+    values = (0.0 if idle else float(word) for word, idle in zip(words, free, strict=True))
+    return float(time), *values, *free
 
 
-def _is_row(line, may_be_free):
+def _is_row(line, form):
     try:
-        _row(line, may_be_free)
+        _row(line, form)
     except ValueError:
         return False
     return True
@@ -103,15 +135,15 @@ def _at(path, number):
     return f"{path}, line {number + 1}: "
 
 
-def _explain(line, what, may_be_free):
-    columns = [column.strip() for column in _columns(line)]
-    if len(columns) < 4 or not (columns[3] or may_be_free):
-        return f"needs time and three {what}, has {line[:60]!r}"
-    known = FREE if may_be_free else ()
+def _explain(line, form):
+    columns = [column.strip() for column in _columns(line, 1 + form.count)]
+    if len(columns) <= form.count or not (columns[-1] or form.may_be_free):
+        return f"needs time and {form.what}, has {line[:60]!r}"
+    known = FREE if form.may_be_free else ()
     word = next(
         column
         for place, column in enumerate(columns)
-        if not _is_row(f"{column};0;0;0", False) and not (place and column in known)
+        if not _is_row(f"{column};0", ONE) and not (place and column in known)
     )
     reason = "has a decimal comma; write a point" if "," in word else "is not a number"
     return f"{word[:60]!r} {reason}"

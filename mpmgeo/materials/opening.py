@@ -9,7 +9,7 @@ and what does not close flows once more:
 
 O is θ on that axis, εt the tensile plastic strain from there.
 
-Axes on which the stress is as large share θ. So a crack bears nothing before it has closed, and
+Axes on which the stress is as large share θ. So a crack bears no pressure before it has closed, and
 pressure along it is none of its concern. One number is enough for several cracks, which close one
 after the other instead of each by itself; soil without cohesion bears nothing while any is open.
 

@@ -20,7 +20,7 @@ from mpmgeo.numerics.clock import Clock
 from mpmgeo.state.checked import demand, number_from, whole_from
 from mpmgeo.state.grid import Grid
 from mpmgeo.state.inspection import first_unsound, kinetic_energy
-from mpmgeo.state.particles import ParticleSet, Population
+from mpmgeo.state.particles import ParticleSet, Population, opens_under_pressure
 from mpmgeo.state.sorting import OPEN, sort
 
 COUNTERS = ("time", "steps", "gone", "peak_energy")
@@ -149,6 +149,7 @@ class Solver(Stages):
         Positions and volumes are taken back by half a step, to where the velocities are.
         """
         works = any(effect.does_work for effect in self.effects)
+        works = works or any(opens_under_pressure(s) for s in self.sets)
         if self.ledger is None and (works or not all(stores_energy(s.law) for s in self.sets)):
             return None
         here = self.tally()
@@ -238,3 +239,5 @@ class Solver(Stages):
             demand(is_sound, "grid.keys are not the blocks of the particles")
         is_sound = all(d.rows.min() >= 0 and d.rows.max() < self.count for d in self.departures)
         demand(is_sound, "departures are of particles that there are not")
+        for resumed in self.asked["resumed"]:
+            resumed(self)

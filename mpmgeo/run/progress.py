@@ -1,6 +1,7 @@
 """What the user sees of a run: its time step, a live bar or plain lines, a table at the end."""
 
 import sys
+from math import inf
 from time import perf_counter
 
 from numba.core import event
@@ -167,12 +168,12 @@ class Progress(Watcher):
 
 def about_step(simulation):
     """Return the time step beside those that it may be compared with."""
-    stable = simulation.stable_time_step
-    return (
-        f"time step {simulation.time_step:.4g} s; "
-        + (f"stable up to {stable:.4g} s" if stable else "no step is stable")
-        + f", critical {simulation.critical_time_step:.4g} s"
-    )
+    stable, step = simulation.stable_time_step, f"time step {simulation.time_step:.4g} s"
+    if stable == inf:  # no particles
+        return step
+    limit = f"stable up to {stable:.4g} s" if stable else "no step is stable"
+    critical = f"critical {simulation.critical_time_step:.4g} s (a wave across a cell)"
+    return f"{step}; {limit}, {critical}"
 
 
 def peak_memory():

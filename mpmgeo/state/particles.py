@@ -59,7 +59,7 @@ class ParticleSet:
     state: np.ndarray | None = None  # (n, k) variables of the law
     pressure: np.ndarray | None = None  # (n,) given pore pressure [Pa], compression positive
     strain: np.ndarray | None = None  # (n, 6) sum of the strain increments [-]
-    work: np.ndarray | None = None  # (n, 2) stored and dissipated of the work of stresses [J]
+    work: np.ndarray | None = None  # (n, 2) done by stresses, and by pressure in opening [J]
     due: np.ndarray | None = None  # (n,) when to look for contact, see `mpm.touch`; −1 in contact
     contact: np.ndarray | None = None  # (n, …) forces and shift of contact, see `mpm.terrain`
     tool: int | None = None  # number of the prescribed velocity that the particles have
@@ -79,12 +79,14 @@ class ParticleSet:
 
     @property
     def material(self):
-        """Return what an update of the material needs: V, stress, m, state, strain, work.
+        """Return what an update needs: V, stress, m, state, strain, work, pressure.
 
-        The masses only where they bound what tension opens, that is for `GRAINS`.
+        The masses only where they bound what tension opens, that is for `GRAINS`, the pressure
+        where it works on what opens, and the work is kept.
         """
         m = self.m if getattr(self.law, "GRAINS", False) else None
-        return self.V, self.stress, m, self.state, self.strain, self.work
+        pressure = self.pressure if self.work is not None and opens_under_pressure(self) else None
+        return self.V, self.stress, m, self.state, self.strain, self.work, pressure
 
     def volume(self, at=slice(None)):
         """Return the volumes [m³] of the particles `at`, with what tension has opened."""
@@ -132,3 +134,8 @@ class ParticleSet:
     def active(self) -> int:
         """Number of particles that have not left the mesh."""
         return int(self.start[-1])
+
+
+def opens_under_pressure(s):
+    """Tell whether given pore pressures work on what tension opens in a set."""
+    return s.pressure is not None and column_of_opening(s.law) is not None

@@ -44,7 +44,8 @@ def advance_points(law, rotation, strain, spin, V, stress, state, dt):
     for p in range(len(V)):
         e, w = strain[p], spin[p]
         ε = (e[0], e[1], e[2], e[3], e[4], e[5])
-        advance(law, rotation, ε, (w[0], w[1], w[2]), V, stress, state, None, None, p, dt)
+        W = w[0], w[1], w[2]
+        advance(law, rotation, ε, W, V, stress, state, None, None, None, p, dt)
 
 
 class Element:

@@ -174,7 +174,7 @@ def strain(law, rotation, dx, dy, dz, V, stress, state, p, dt):
     xy, yz, xz = 0.5 * (x[1] + y[0]), 0.5 * (y[2] + z[1]), 0.5 * (z[0] + x[2])
     ε = x[0], y[1], z[2], xy, yz, xz
     W = 0.5 * (y[0] - x[1]), 0.5 * (z[1] - y[2]), 0.5 * (z[0] - x[2])
-    advance(law, rotation, ε, W, V, stress, state, None, None, p, dt)
+    advance(law, rotation, ε, W, V, stress, state, None, None, None, p, dt)
 
 
 @compiled

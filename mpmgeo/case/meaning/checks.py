@@ -1,5 +1,7 @@
 """What only the parts of a case together can show to be impossible, or unlikely to be meant."""
 
+from dataclasses import fields
+
 import numpy as np
 
 from mpmgeo.boundaries.terrain import TerrainContact
@@ -10,7 +12,7 @@ from mpmgeo.case.meaning.schemes import check_schemes
 from mpmgeo.case.meaning.slips import warn_of_slips
 from mpmgeo.case.meaning.steps import check_steps
 from mpmgeo.case.spec import ACTIONS, Case
-from mpmgeo.loads import BaseAcceleration, PrescribedVelocity
+from mpmgeo.loads import BaseAcceleration, InTime, PrescribedVelocity
 from mpmgeo.positions import resolution
 from mpmgeo.values import shown
 
@@ -29,6 +31,7 @@ def check(draft, report):
     _check_names(draft, report)
     _check_base(draft, report)
     _check_energy(draft, report)
+    _check_in_time(draft, report)
     check_phases(draft, report)
     note_idle(draft, report)
     warn_of_slips(draft, sound, report)
@@ -88,6 +91,17 @@ def _check_energy(draft, report):
         if "energy" in results.given and draft.whole.values.get("compatibility") is not None:
             message = "there is no balance of energy with compatibility; leave one of them out"
             report.error(results.at("energy"), message)
+
+
+def _check_in_time(draft, report):
+    """Report loads in time of what is as in MPM-Geomechanics."""
+    if draft.whole.values.get("compatibility") is None:
+        return
+    for part in (*draft.of("gravity"), *_actions(draft)):
+        keys = [item.name for item in fields(InTime) if item.name in part.given]
+        if keys and isinstance(part.made, InTime):
+            message = "MPM-Geomechanics knows no loads in time; leave it or compatibility out"
+            report.error(part.at(keys[0]), message)
 
 
 def _check_base(draft, report):

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from mpmgeo.case.coordinates import reading_in_mesh
-from mpmgeo.case.kinds import Kind, declared, word_of
+from mpmgeo.case.kinds import Kind, declared, listed, word_of
 from mpmgeo.case.spec import Case
 from mpmgeo.values import is_number, shown
 
@@ -94,6 +94,8 @@ class _Maker:
         is_wrong = path in self.report.errors
         if kind.name == "object" and metadata.get("several") and isinstance(value, list):
             kind = Kind("list", kind)
+        if kind.name == "fixed" and kind.classes and isinstance(value, dict):
+            kind = Kind("object", classes=kind.classes)
         if kind.name == "object" and (isinstance(value, dict) or not is_wrong):
             return self._object(kind.classes, value, path)
         if is_wrong:
@@ -134,8 +136,8 @@ class _Maker:
         keys = declared(cls)
         steps = {item.key: item.key for item in keys}
         if isinstance(value, list):
-            steps = {item.key: index for index, item in enumerate(keys)}
-            value = {item.key: entry for item, entry in zip(keys, value, strict=True)}
+            steps |= listed(cls)
+            value = dict(zip(listed(cls), value, strict=True))
         values = {}
         for key, kind, field in keys:
             if key in value:

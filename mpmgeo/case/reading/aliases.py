@@ -32,6 +32,7 @@ ALIASES = (
     Alias(("results",), "fields", "material_point_results", is_unread=True),
     Alias(("results",), "material-point-results", "material_point_results", is_unread=True),
     Alias(("results",), "grid-nodal-results", "grid_nodal_results", is_unread=True),
+    Alias(("nodal_point_load", "*"), "position", "point", is_equal=True),
     Alias(("damping",), "alpha", "value", unless=("mass",)),
     Alias(("damping", "*"), "alpha", "value", unless=("mass",)),
 )

@@ -80,6 +80,8 @@ def accepted(schema, is_limit=False, plural=False) -> str:
         return f"{NOUNS[kind][plural]}{count} {accepted(schema['prefixItems'][0], plural=True)}"
     link = count or " of"
     text = f"{NOUNS[kind][plural]}{link} {accepted(schema['items'], is_limit, plural=True)}"
+    if "then" in schema:
+        return f"{text}, or {NOUNS['object'][0]}"
     return f"{text}, or an object of such entries" if "object" in kinds else text
 
 
@@ -111,8 +113,11 @@ def _missing(error, path, schema, report):
         keys = [error.validator_value[0]["required"][0]]
     else:
         keys = [key for key in error.validator_value if key not in error.instance]
+    known = schema["properties"]
+    for _, node in _around(error, schema):
+        known = node.get("properties", known) if isinstance(node, dict) else known
     for key in keys:
-        wanted = error.schema.get("properties", schema["properties"]).get(key, {})
+        wanted = known.get(key, {})
         text = wanted.get("description", "")
         about = f"; needed: {accepted(wanted)}{text and f' ({text})'}" if wanted else ""
         report.error((*path, key), f"missing{about}")
@@ -139,13 +144,21 @@ def _home(key, schema):
 
 def _about(error, schema):
     """Return the description of the innermost key around an error, in brackets."""
-    node, text = schema, ""
-    for step in error.absolute_schema_path:
-        while isinstance(node, dict) and step not in node and "$ref" in node:
-            node = schema["$defs"][node["$ref"].rpartition("/")[2]]
-        node = node[step]
+    text = ""
+    for step, node in _around(error, schema):
         if step == "properties":
             text = ""
         elif isinstance(node, dict):
             text = node.get("description", text)
     return f" ({text})" if text else ""
+
+
+def _around(error, schema):
+    """Yield the steps that lead to an error, and what is there of the schema, outer ones first."""
+    node = schema
+    for step in error.absolute_schema_path:
+        while isinstance(node, dict) and step not in node and "$ref" in node:
+            node = schema["$defs"][node["$ref"].rpartition("/")[2]]
+            yield None, {"properties": node.get("properties", {})}
+        node = node[step]
+        yield step, node

@@ -3,7 +3,7 @@
 from dataclasses import MISSING
 
 from mpmgeo.case.canonical import plain
-from mpmgeo.case.kinds import containers, declared, word_of
+from mpmgeo.case.kinds import containers, declared, listed, word_of
 from mpmgeo.case.reading.aliases import ALIASES, IGNORED
 from mpmgeo.case.spec import Case
 
@@ -108,7 +108,9 @@ def _value(kind, metadata, place, definitions):
         return {"type": ["array", "object"], "items": entry, "additionalProperties": entry}
     if kind.name == "fixed":
         entry = _value(kind.item, metadata, place, definitions)
-        return {"type": "array", "items": entry, "minItems": kind.length, "maxItems": kind.length}
+        size = {"minItems": kind.length, "maxItems": kind.length}
+        one = {"type": "array", "items": entry} | size
+        return _or_object(one, kind, place, definitions) if kind.classes else one
     if kind.name == "list":
         entry = _value(kind.item, metadata, place, definitions)
         types = ["array", "string"] if kind.item.name == "text" else "array"
@@ -123,6 +125,12 @@ def _or_list(one):
     """Return the schema of an object, or a list of such objects, from that of an object."""
     choice = {"if": {"type": "array"}, "then": {"items": one}, "else": one}
     return {"type": ["object", "array"], **choice}
+
+
+def _or_object(one, kind, place, definitions):
+    """Return the schema of a list, or of an object in its place, from that of the list."""
+    whole = _reference(kind, place, definitions)
+    return one | {"type": ["array", "object"], "if": {"type": "object"}, "then": whole}
 
 
 def _scalar(kind, metadata):
@@ -149,8 +157,8 @@ def _reference(kind, place, definitions):
             definitions[name] = _object(kind.classes[0], place, definitions)
         else:
             definitions[name] = _choice(kind.classes, name, place, definitions)
-        if getattr(kind.classes[0], "may_be_list", False):
-            _allow_list(definitions[name])
+        if keys := listed(kind.classes[0]):
+            _allow_list(definitions[name], keys)
     return {"$ref": f"#/$defs/{name}"}
 
 
@@ -177,8 +185,8 @@ def _choice(classes, name, place, definitions):
     }
 
 
-def _allow_list(schema):
-    """Let an object also be written as the list of its values."""
-    entries = list(schema["properties"].values())
+def _allow_list(schema, keys):
+    """Let an object also be written as the list of the values of some keys."""
+    entries = [schema["properties"][key] for key in keys]
     schema["type"] = ["array", "object"]
     schema |= {"prefixItems": entries, "minItems": len(entries), "maxItems": len(entries)}

@@ -53,6 +53,12 @@ MEANINGS = {
     "initial_velocity": ("velocity", "v0", "v"),
     "particles_per_direction": ("ppc", "particlespercell", "np"),
     "mesh_file": ("file", "filename"),
+    # loads
+    "point": ("node", "at", "place", "location"),
+    "value": ("vector", "acceleration"),
+    "factor": ("factors", "multiplier", "amplitude", "values"),
+    "factor_file": ("file", "filename", "table"),
+    "sine": ("sin", "cosine", "smooth"),
     # results
     "material_point_results": ("particleresults", "particlefields", "variables"),
     "grid_nodal_results": ("gridresults", "gridfields", "noderesults"),

@@ -3,7 +3,7 @@
 from numba.extending import overload
 from numba.np.unsafe.ndarray import to_fixed_tuple
 
-from mpmgeo.materials.law import strain_energy, update_stress
+from mpmgeo.materials.law import update_stress
 from mpmgeo.materials.rotation import rotate_stress
 from mpmgeo.numerics.jit import INLINED, inlined
 from mpmgeo.numerics.simd import add, lane, load_column, load_row, pack, scale, with_velocity
@@ -97,13 +97,11 @@ def _compiled_keep_state(law, state, old, new, p):
 
 
 @inlined
-def advance(law, rotation, strain, spin, V, stress, state, total, work, p, dt):
+def advance(law, rotation, strain, spin, V, stress, state, total, work, pressure, p, dt):
     """Update volume, stress and the law's variables of particle p for a strain increment.
 
-    The volume is that without openings, see `mpm.core.opening`. `rotation` None, or the objective
-    rate by which the old stress follows the spin increment. `total` None, or the strains, to which
-    the increment is added. `work` None, or what particles have stored and dissipated of the work on
-    them [J], to which that of the step is added.
+    `rotation` None, or the objective rate by which the old stress follows the spin increment;
+    the arrays are those of `ParticleSet.material`, the last three None where they are not kept.
     """
     stretch = 1.0 + (strain[0] + strain[1] + strain[2])
     V[p] *= stretch
@@ -120,17 +118,21 @@ def advance(law, rotation, strain, spin, V, stress, state, total, work, p, dt):
     if opened != 0.0:
         V[p] *= 1.0 - opened / stretch
     if work is not None:
-        _account(law, old, new, strain, V[p], work, p)
+        _account(old, new, strain, V[p], work, p)
+        _press(pressure, V, opened, work, p)
 
 
 @inlined
-def _account(law, old, new, strain, V, work, p):
-    """Add the work of the mean stress to what particle p stores of it, and to what it does not."""
-    σ = (new[0], new[1], new[2], new[3], new[4], new[5])
-    xx, yy, zz = old[0] + σ[0], old[1] + σ[1], old[2] + σ[2]
-    xy, yz, xz = old[3] + σ[3], old[4] + σ[4], old[5] + σ[5]
+def _account(old, new, strain, V, work, p):
+    """Add the work that the mean stress does on particle p."""
+    xx, yy, zz = old[0] + new[0], old[1] + new[1], old[2] + new[2]
+    xy, yz, xz = old[3] + new[3], old[4] + new[4], old[5] + new[5]
     done = xx * strain[0] + yy * strain[1] + zz * strain[2]
-    done += 2.0 * (xy * strain[3] + yz * strain[4] + xz * strain[5])
-    stored = strain_energy(law, σ) - strain_energy(law, old)
-    work[p, 0] += V * stored
-    work[p, 1] += V * (0.5 * done - stored)
+    work[p, 0] += V * (0.5 * done + xy * strain[3] + yz * strain[4] + xz * strain[5])
+
+
+@inlined
+def _press(pressure, V, opened, work, p):
+    """Add the work that a given pore pressure does by opening particle p."""
+    if pressure is not None:
+        work[p, 1] += pressure[p] * V[p] * opened

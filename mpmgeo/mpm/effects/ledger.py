@@ -11,7 +11,8 @@ which is what they change the kinetic energy of the nodes by. What belongs to po
 and volumes is the mean of its values before and after they have moved: elastic energy, dissipation
 of the laws, and the work Σ f·x + Σ p V of what does not change, weight, loads on particles and
 given pore pressures; with USF the stresses, which lag, are continued by a step. So a vibration
-without damping has a balance of second order in the step.
+without damping has a balance of second order in the step. Where forces on particles do change,
+`effects/in_time.py` puts in what is lacking.
 """
 
 from typing import NamedTuple
@@ -90,7 +91,7 @@ def _damps_nothing(damping):
 
 
 class Ledger(Effect):
-    """Keeps a row of ENERGIES [J] every so many steps; the last of all effects.
+    """Keeps a row of ENERGIES [J] every so many steps; after all effects of a step.
 
     `is_early`: whether a step updates the stresses first, so that they are a step behind the
     positions. Effects that do work add it with `put_in`.
@@ -103,7 +104,8 @@ class Ledger(Effect):
         self.every = every
         self.weights = (1.5, 1.5, 0.5) if is_early else (0.5, 0.5, 0.5)
         self.sums = np.zeros(2)  # put in at nodes, damped
-        self.start = np.full(4, np.nan)  # kinetic, strain, given; strain with that of who left
+        self.start = np.full(5, np.nan)  # kinetic, strain, given, plastic; strain with who left
+        self._begins = False  # whether the balance begins in this step
         self.figures = np.full(len(ENERGIES), np.nan)  # the last row
         self._before = self._power = None  # what the end of a step compares with
 
@@ -142,13 +144,13 @@ class Ledger(Effect):
     def begin(self, solver, h):
         """Note what there is before the step."""
         due = (solver.steps + 1) % self.every == 0
-        begins = bool(np.isnan(self.start[0]))
-        if begins:
-            self.start[3] = sum(solver.tally(left).strain.sum() for left in (False, True))
-        if due or begins:
+        self._begins = bool(np.isnan(self.start[0]))
+        if self._begins:
+            self.start[4] = sum(solver.tally(left).strain.sum() for left in (False, True))
+        if due or self._begins:
             *self._before, self._power = self._levels()
-        if begins:
-            self.start[:3] = solver.kinetic_energy(), self._before[0], self._before[2]
+        if self._begins:
+            self.start[0] = solver.kinetic_energy()
 
     def before_nodes(self, solver, task):
         """Note what is done at the nodes."""
@@ -174,19 +176,31 @@ class Ledger(Effect):
     def end(self, solver):
         """Make a row if one is due."""
         due = solver.steps % self.every == 0
-        if not due and solver.steps > 1:
+        if not due and not self._begins:
             return
         *now, power = self._levels()
-        if solver.steps == 1:
-            # the first step of the velocities is half of that of the positions
-            self.sums[0] -= 0.25 * solver.time_step * (power - self._power)
+        if self._begins:
+            self._set_start(solver, now, power)
         if due:
             both = zip(self._before, now, self.weights, strict=True)
             values = (before + weight * (after - before) for before, after, weight in both)
             self.figures[:] = self._row(solver.kinetic_energy(), *values)
         solver.clock.lap(self.name)
 
+    def _set_start(self, solver, now, power):
+        """Set what there was when the velocities were those before the step, which is done now."""
+        h, (strain, plastic, given) = solver.time_step, self._before
+        if solver.steps == 1:
+            # the first step of the velocities is half of that of the positions
+            self.sums[0] -= 0.25 * h * (power - self._power)
+        else:  # half a step before the positions
+            strain += (self.weights[0] - 1.0) * (now[0] - strain)
+            plastic += (self.weights[1] - 1.0) * (now[1] - plastic)
+            given -= 0.5 * h * self._power
+        self.start[1:4] = strain, given, plastic
+
     def _row(self, kinetic, strain, plastic, given):
+        plastic -= self.start[3]
         external, damping = self.sums[0] + given - self.start[2], self.sums[1]
         start = self.start[0] + self.start[1]
         balance = kinetic + strain + plastic + damping - external - start
@@ -199,9 +213,10 @@ class Ledger(Effect):
         """
         s = self.solver
         here, gone = s.tally(), s.tally(left=True)
-        stored, dissipated = sum((part.work.sum(axis=0) for part in s.sets), np.zeros(2))
-        given = (here.potential + gone.potential - gone.kinetic - gone.strain).sum()
-        strain = self.start[3] + stored - gone.strain.sum()
+        done, pressed = sum((part.work.sum(axis=0) for part in s.sets), np.zeros(2))
+        given = (here.potential + gone.potential - gone.kinetic - gone.strain).sum() + pressed
+        strain = here.strain.sum()
+        dissipated = self.start[4] + done - strain - gone.strain.sum()
         return float(strain), float(dissipated), float(given), float(here.power.sum())
 
     def held(self):

@@ -77,11 +77,12 @@ def test_entries_of_objects_come_in_alphabetical_order(case):
 
 
 def test_loads_in_either_form(case):
-    load = PointLoad(position=(1, 1, 1), force=(0, 0, -1))
+    load = PointLoad(point=(1, 1, 1), force=(0, 0, -1))
     for form in (
         [[[1, 1, 1], [0, 0, -1]]],
         {"a": [[1, 1, 1], [0, 0, -1]]},
         [{"position": [1, 1, 1], "force": [0, 0, -1]}],
+        [{"point": [1, 1, 1], "force": [0, 0, -1]}],
     ):
         assert load_case(case | {"nodal_point_load": form}).nodal_point_load == (load,)
 

@@ -59,7 +59,7 @@ def test_positions_move_and_nothing_else():
     inside = in_mesh(user, user.mesh.origin)
     assert inside.mesh.origin == (0.0, 0.0, 0.0) and inside.mesh.upper == (4.0, 3.0, 5.0)
     assert inside.body[0].point_p1 == (1.0, 1.0, 1.0)
-    assert inside.nodal_point_load[0].position == (1.0, 1.0, 1.0)
+    assert inside.nodal_point_load[0].point == (1.0, 1.0, 1.0)
     assert inside.nodal_point_load[0].force == (1.0, 2.0, 3.0)
     assert inside.body[1].initial_velocity == user.body[1].initial_velocity
     assert inside.materials is user.materials and inside.results is user.results

@@ -39,6 +39,7 @@ class Box:
         (tuple[Vector, ...], Kind("list", Kind("fixed", Kind("number"), 3))),
         (tuple[str, ...], Kind("list", Kind("text"))),
         (Ball, Kind("object", classes=(Ball,))),
+        (Vector | Ball, Kind("fixed", Kind("number"), 3, (Ball,))),
         (Ball | Box | None, Kind("object", classes=(Ball, Box))),
         (tuple[Ball | Box, ...], Kind("list", Kind("object", classes=(Ball, Box)))),
     ],

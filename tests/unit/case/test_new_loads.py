@@ -50,6 +50,35 @@ def test_canonical_form_is_valid_and_loads_to_the_same_case(case, tmp_path):
     assert text["initial_pressure_material"] == [{"material_id": 1, "pressure": 5.0}]
 
 
+def test_loads_in_time_in_canonical_form(case, tmp_path):
+    (tmp_path / "f.csv").write_text("time,factor\n0,0\n1,1\n")
+    ramp, table = {"ramp": {"type": "sine", "duration": 10}}, {"time": [0, 1], "factor": [1, 2]}
+    case |= {
+        "gravity": {"value": [0, 0, -9.81]} | ramp,
+        "load_distributed_box": [BOX | {"load": [0, 0, 1], "factor_file": str(tmp_path / "f.csv")}],
+        "nodal_point_load": [
+            {"point": [1, 1, 1], "force": [0, 0, 1]} | table,
+            {"point": [1, 1, 1], "force": [0, 0, 1]},
+        ],
+    }
+    loaded = load_case(case, strict=True)
+    text = json.loads(json.dumps(resolved(loaded)))
+    assert Draft202012Validator(case_schema()).is_valid(case)
+    assert Draft202012Validator(case_schema()).is_valid(text)
+    assert load_case(text) == loaded
+    assert text["gravity"] == case["gravity"]
+    assert text["nodal_point_load"] == [case["nodal_point_load"][0], [[1, 1, 1], [0, 0, 1]]]
+    assert text["load_distributed_box"][0]["factor_file"] == str(tmp_path / "f.csv")
+    assert load_case(case | {"gravity": {"value": [0, 0, -9.81]}}).gravity.course is None
+
+
+def test_a_file_of_factors_lies_beside_the_case(case, tmp_path):
+    (tmp_path / "f.csv").write_text("0,1\n")
+    case["gravity"] = {"value": [0, 0, -9.81], "factor_file": "f.csv"}
+    (tmp_path / "case.json").write_text(json.dumps(case))
+    assert load_case(tmp_path / "case.json").gravity.factor_file == tmp_path / "f.csv"
+
+
 @pytest.mark.parametrize(
     ("keys", "note"),
     [

@@ -6,7 +6,7 @@ from mpmgeo.loads import PointLoad
 
 
 def node(position, origin=(0, 0, 0), cell=(1, 1, 1)):
-    load = PointLoad(position=position, force=(0, 0, -1))
+    load = PointLoad(point=position, force=(0, 0, -1))
     return in_mesh(load, origin).node(cell).tolist()
 
 
@@ -38,7 +38,7 @@ def test_halfway_far_away_is_not_decided_by_round_off_either():
 
 
 def test_one_without_particles_is_told_of_where_the_user_has_put_it():
-    load = PointLoad(position=(500_001.5, 4_500_000.25, 2.0), force=(0, 0, -1))
+    load = PointLoad(point=(500_001.5, 4_500_000.25, 2.0), force=(0, 0, -1))
     load = in_mesh(load, (5e5, 4.5e6, 0.0))
     cell, body = np.full(3, 0.5), np.ones(1)
     assert load.idle(np.array([[1.5, 0.25, 1.5]]), body, cell) is None

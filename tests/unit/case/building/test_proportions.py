@@ -36,6 +36,16 @@ def test_gravity_upwards(case):
     assert warning_of(case) == "gravity: 9.81 m/s² along z points up"
 
 
+def test_gravity_in_time_counts_where_it_is_largest(case):
+    table = {"time": [0, 1, 2], "factor": [0, -2, 1]}
+    case["gravity"] = {"value": [0, 0, -10]} | table
+    assert warning_of(case) == "gravity: 20 m/s² along z points up"
+    case["gravity"] = {"value": [0, 0, -10], "ramp": {"type": "sine", "duration": 1}}
+    assert lint(simulation_of(case)) == []
+    case["materials"]["soil"]["young"] = 1e4
+    assert warning_of(case).startswith("body 1: its own weight, 1.5e+04 Pa at the bottom")
+
+
 @pytest.mark.parametrize(
     ("gravity", "plane"), [([0, -9.81, 0], "Y0"), ([0, 9.81, 0], "Yn"), ([9.81, 0, 0], "Xn")]
 )

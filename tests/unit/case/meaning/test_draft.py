@@ -34,10 +34,10 @@ def test_entries_come_in_the_order_of_the_case(case, report):
 
 def test_a_part_written_as_a_list_knows_its_positions(case, report):
     point, force = [1, 1, 1], [0, 0, 1]
-    case["nodal_point_load"] = [[point, force], {"position": point, "force": force}]
+    case["nodal_point_load"] = [[point, force], {"point": point, "force": force}]
     first, second = draft(case, Path(), report).of("nodal_point_load")
-    assert first.at("position", 2) == ("nodal_point_load", 0, 0, 2)
-    assert second.at("position", 2) == ("nodal_point_load", 1, "position", 2)
+    assert first.at("point", 2) == ("nodal_point_load", 0, 0, 2)
+    assert second.at("point", 2) == ("nodal_point_load", 1, "point", 2)
     assert first.made == second.made
 
 

@@ -24,18 +24,21 @@ VALUES = {
     "material_point_results": ["stress"],
     "grid_nodal_results": ["mass"],
     "value": 0.4,
+    "point": [1, 1, 1],
 }
 
 
-def put_damping(case, alias):
-    """Give the case what an alias is about, if it is a kind of damping."""
+def put_owner(case, alias):
+    """Give the case what an alias is about, if that is a load or a kind of damping."""
+    if alias.place[:1] == ("nodal_point_load",):
+        case["nodal_point_load"] = [{"force": [0, 0, 1]}]
     if alias.place[:1] == ("damping",):
         case["damping"] = {"type": "local"} if len(alias.place) == 1 else [{"type": "local"}]
 
 
 @pytest.mark.parametrize("alias", ALIASES, ids=lambda alias: alias.old)
 def test_old_spelling_equals_canonical_one(case, alias):
-    put_damping(case, alias)
+    put_owner(case, alias)
     old, new = copy.deepcopy(case), case
     value = old.pop("materials") if alias.new == "materials" else VALUES[alias.new]
     put(old, alias.place, alias.old, value)
@@ -49,7 +52,7 @@ def test_old_spelling_equals_canonical_one(case, alias):
 
 @pytest.mark.parametrize("alias", ALIASES, ids=lambda alias: alias.old)
 def test_both_spellings_warn_and_one_wins(case, alias):
-    put_damping(case, alias)
+    put_owner(case, alias)
     value = case["materials"] if alias.new == "materials" else VALUES[alias.new]
     put(case, alias.place, alias.new, value)
     put(case, alias.place, alias.old, value)
