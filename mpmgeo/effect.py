@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 HOOKS = (
     *("after_sort", "begin", "before_nodes", "after_nodes", "after_remap", "before_gather"),
-    *("after_gather", "end", "stopped", "resumed", "keeping", "news"),
+    *("after_gather", "end", "stopped", "resumed", "keeping", "cutting", "news"),
 )
 """Methods that a solver calls in or between steps."""
 
@@ -60,6 +60,10 @@ class Effect:
 
     def keeping(self, walls):
         """Return those of the planes, `walls`, that particles do not pass, as far as it knows."""
+        return walls
+
+    def cutting(self, walls):
+        """Return those of the planes, `walls`, at which shapes may end, as far as it knows."""
         return walls
 
     def news(self, solver) -> Iterator:

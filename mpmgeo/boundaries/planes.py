@@ -60,6 +60,11 @@ class Planes(NamedTuple):
         """Return the planes that hold still; a base moves, and particles with it."""
         return Walls(*(kind in (SLIDING, FIXED) for kind in self[:6]))
 
+    @property
+    def cutting(self) -> Walls:
+        """Return the planes at which shapes end, if they do: all that hold or move nodes."""
+        return Walls(*(kind != FREE for kind in self[:6]))
+
 
 @inlined
 def touches(corner, cells, side):

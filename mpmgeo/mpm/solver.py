@@ -70,8 +70,17 @@ class Solver(Stages):
             hook: [getattr(effect, hook) for effect in self.effects if effect.overrides(hook)]
             for hook in HOOKS
         }
+        self.bound(self.planes)
         for effect in self.effects:
             effect.join(self)
+
+    def bound(self, planes):
+        """Take on planes that bound the mesh from now on; shapes that end at walls end there."""
+        self.planes = planes
+        walls = planes.cutting
+        for cutting in self.asked["cutting"]:
+            walls = cutting(walls)
+        self.grid.end_at(walls)
 
     def effect(self, name):
         """Return the effect of a name, None without."""

@@ -18,23 +18,27 @@ and USF strain with velocities that particles brought to the nodes, as a leapfro
 
 Derived, but for Γ, which is the largest that a search over products finds, and for Δ = ⅔ Γ in USL,
 that of a node which moves by itself, else Γ; `benchmarks/stability.py` measures how close they are.
-Not covered: a particle apart from all others that is smaller than a cell, and, with hats, lattices
-on the faces of cells to round-off.
+Shapes that end at walls have rows beside walls, too, from half a half-size on; planes that hold
+nodes only take motions away.
+
+Not covered: a particle apart from all others that is smaller than a cell or nearer to a wall, and,
+with hats, lattices on the faces of cells to round-off.
 
 Source: Hughes, The Finite Element Method (1987), section 9.1, for the damped leapfrog.
 """
 
 from functools import lru_cache
-from math import floor, sqrt
+from math import floor, inf, sqrt
 from typing import NamedTuple
 
 import numpy as np
 
-from mpmgeo.shapes.shape import stencil, width
+from mpmgeo.shapes.shape import cut_of, cuts, stencil, width
 
 LENGTHS = (1, 4)  # of rows, in cells
 TOUCH = 1e-3  # cells by which particles reach over a node, or lie beyond it
 PLACES = 20  # of a row on the grid
+NEAREST = 0.5  # half-sizes between a wall and the nearest particle
 SMALLEST = 0.01  # half-size in cells below which particles count as no smaller
 ROUNDS = 4  # of the search for Γ
 
@@ -87,16 +91,21 @@ def _gradient(axes, scale, π):
 def rows(shape, filtered, l):
     """Return A, A of the means over cells, and P of rows of particles of half-size `l` [cells].
 
-    Each is (places, nodes, nodes), for all places on the grid.
+    Each is (places, nodes, nodes), for all places on the grid and beside walls.
     """
     ends = (TOUCH, 0.5 - TOUCH, 0.5 + TOUCH, *(i / PLACES for i in range(PLACES)))
     ends = (*ends, *((l + end) % 1.0 for end in ends))
-    found = [_operators(shape, filtered, l, length, end) for length in LENGTHS for end in ends]
+    cases = [(length, end, None) for length in LENGTHS for end in ends]
+    if cuts(shape):
+        beside = (l, *(max(end, NEAREST * l) for end in ends))
+        cases += [(length, end, (0.0, inf)) for length in LENGTHS for end in beside]
+        cases += [(1, l, (0.0, 1.0))]
+    found = [_operators(shape, filtered, l, *case) for case in cases]
     return tuple(map(np.array, zip(*found, strict=True)))
 
 
-def _operators(shape, filtered, l, length, end):
-    S, B, cell = _row(shape, l, length, end)
+def _operators(shape, filtered, l, *case):
+    S, B, cell = _row(shape, l, *case)
     total = S.sum(axis=0)
     r = np.divide(1.0, np.sqrt(total), where=total > 0, out=np.zeros_like(total))
     S, B = S * r, B * r
@@ -109,14 +118,18 @@ def _operators(shape, filtered, l, length, end):
     return A, mean, P
 
 
-def _row(shape, l, length, end):
-    """Return weights, slopes (particles, nodes), cells of a row `end` cells after a node."""
+def _row(shape, l, length, end, walls):
+    """Return weights, slopes (particles, nodes), cells of a row `end` cells after a node.
+
+    `walls`: where they are, in cells from that node, or None.
+    """
     count, nodes = max(1, round(length / (2 * l))), width(shape)
     S = np.zeros((count, max(LENGTHS) + 1 + 2 * nodes))
     B, places = np.zeros_like(S), nodes + end + 2 * l * np.arange(count)
     for p, x in enumerate(places):
         first = floor(x - nodes / 2 + 1)
-        values = stencil(shape, x - first - (nodes - 1) / 2, l, None)
+        cut = cut_of(shape, walls, first - nodes)
+        values = stencil(shape, x - first - (nodes - 1) / 2, l, cut)
         S[p, first : first + nodes] = values[:nodes]
         B[p, first : first + nodes] = values[nodes:]
     return S, B, np.floor(places)

@@ -2,9 +2,11 @@
 
 On a Cartesian grid a shape function is the product of three 1D functions, each `width` nodes wide.
 A shape is a NamedTuple with that class attribute and one `stencil` registered for its type; its
-class attribute `edge` is the power with which the weight vanishes at the edge of the support.
+class attribute `edge` is the power with which the weight vanishes at the edge of the support. With
+the class attribute `cuts = True` it ends at walls, and its stencil is told how it is cut.
 """
 
+from numba.core import types
 from numba.extending import overload
 
 from mpmgeo.numerics.dispatch import generic
@@ -19,8 +21,9 @@ def stencil(shape, s, l, cut):
 
     `s` in [−½, ½]: position of the particle relative to the middle of its S nodes, in cells. `l`:
     half of the particle's size, in cells, at most ½. `cut`: how many of the first and of the last
-    nodes lie beyond a wall, along each axis, for shapes that end there; None for the others, which
-    get nothing else. Slopes are per cell.
+    nodes lie beyond a wall, along each axis, for shapes that end there; None for the others. Nodes
+    beyond have the weight zero; those at and before the wall sum to one and are linear up to it.
+    Slopes are per cell.
     """
 
 
@@ -33,3 +36,33 @@ def width(shape):
 def _width(shape):
     nodes = shape.instance_class.width
     return lambda shape: nodes
+
+
+def cuts(shape):
+    """Tell whether the shape ends at walls."""
+    return getattr(type(shape), "cuts", False)
+
+
+def cut_of(shape, walls, first):
+    """Return the `cut` of the stencil that begins at a node, None for shapes that do not end.
+
+    `walls`: where those of the lower and of the upper side are, in cells as the node, infinitely
+    far away where there is none; None for no walls at all.
+    """
+    return _choose(cuts(shape), walls is not None)(shape, walls, first)
+
+
+@overload(cut_of, jit_options=INLINED)
+def _cut_of(shape, walls, first):
+    has_walls = not isinstance(walls, types.NoneType)
+    return _choose(getattr(shape.instance_class, "cuts", False), has_walls)
+
+
+def _choose(ends, has_walls):
+    if not ends:
+        return lambda shape, walls, first: None
+    return _beyond if has_walls else lambda shape, walls, first: (0.0, 0.0)
+
+
+def _beyond(shape, walls, first):
+    return max(walls[0] - first, 0.0), max(first + (width(shape) - 1.0) - walls[1], 0.0)

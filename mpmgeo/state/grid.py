@@ -25,6 +25,7 @@ SOLID = Lanes(
     node={"velocity": (0, 3), "acceleration": (3, 3), "mass": (6, 1), "part that touches": (7, 1)},
 )
 
+NO_WALLS = (*3 * (-np.inf,), *3 * (np.inf,))
 KEY_BITS = 21
 KEY_SHIFT = 1 << (KEY_BITS - 1)
 
@@ -51,12 +52,18 @@ class Mesh(NamedTuple):
 
 @inlined
 def mesh_of(frame):
-    """Return the symbols of the mesh whose numbers an array (9,) holds, in their order.
+    """Return the symbols of the mesh whose numbers an array begins with, in their order.
 
     A call from Python passes an array in a tenth of the time of a NamedTuple of nine numbers.
     """
-    h, i, n = frame[:3], frame[3:6], frame[6:]
+    h, i, n = frame[:3], frame[3:6], frame[6:9]
     return Mesh(h[0], h[1], h[2], i[0], i[1], i[2], int(n[0]), int(n[1]), int(n[2]))
+
+
+@inlined
+def walls_of(frame):
+    """Return where shapes end below and above, in cells, infinitely far away where they do not."""
+    return frame[9:12], frame[12:15]
 
 
 def keys_of(corner):
@@ -90,7 +97,7 @@ class Grid:
 
     def __init__(self, mesh: Mesh, width: int):
         self.mesh = mesh
-        self.frame = np.array(mesh, float)  # the same for `mesh_of`
+        self.frame = np.array((*mesh, *NO_WALLS))  # for `mesh_of` and `walls_of`
         self.width = width
         self.side = SIDE + width - 1  # nodes along a tile's edge
         self.rows = (self.side,) * 3
@@ -121,6 +128,11 @@ class Grid:
         _, now, before = np.intersect1d(self.active, old, return_indices=True)
         self.records()[now] = records[before]  # the last velocities, which damping may ask for
         self.chunk = cut(np.arange(len(self.active) + 1))
+
+    def end_at(self, walls):
+        """Let shapes that end at walls end at those planes, for which `walls` (6,) are true."""
+        planes = (0, 0, 0, self.mesh.nx, self.mesh.ny, self.mesh.nz)
+        self.frame[9:] = np.where(walls, planes, NO_WALLS)
 
     @property
     def tiles(self):

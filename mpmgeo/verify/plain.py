@@ -17,7 +17,7 @@ from mpmgeo.mpm.core.opening import confine
 from mpmgeo.mpm.core.point import advance
 from mpmgeo.mpm.schemes import musl, usf, usl
 from mpmgeo.numerics.jit import compiled, inlined
-from mpmgeo.shapes.shape import stencil, width
+from mpmgeo.shapes.shape import cut_of, stencil, width
 from mpmgeo.verify.dense_grid import Box, free_components
 
 ZERO = (0.0, 0.0, 0.0)
@@ -54,7 +54,8 @@ def stencil_along(axis, shape, box, half, x, p):
     S = width(shape)
     g = x[p, axis] / box.cell[axis]
     first = floor(g - 0.5 * (S - 2))
-    return first + box.ghosts, stencil(shape, g - first - 0.5 * (S - 1), half[p, axis], None)
+    cut = cut_of(shape, (box.lower[axis], box.upper[axis]), first)
+    return first + box.ghosts, stencil(shape, g - first - 0.5 * (S - 1), half[p, axis], cut)
 
 
 @inlined
@@ -203,7 +204,7 @@ class PlainSolver:
         self.local = solver.damping[0].α if solver.damping else None
         self.cutoff = solver.cutoff
         mesh = solver.grid.mesh
-        self.box = Box(mesh, mesh[:3], mesh[6:], ghosts=(width(solver.shape) + 1) // 2)
+        self.box = Box.of(mesh, solver.planes, ghosts=(width(solver.shape) + 1) // 2)
         self.free = free_components(self.box, solver.planes)
         self.M = np.zeros(self.free.shape[:3])
         self.P, self.F, self.U, self.A = (np.zeros_like(self.free) for _ in range(4))

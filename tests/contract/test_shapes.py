@@ -1,5 +1,7 @@
 """What every shape function keeps, the ready ones and those that only tests know."""
 
+from math import floor, inf
+
 import numpy as np
 import pytest
 from hypothesis import example, given
@@ -7,7 +9,7 @@ from hypothesis import strategies as st
 from models import Spline6, Spline10
 
 from mpmgeo.shapes import SHAPES
-from mpmgeo.shapes.shape import stencil, width
+from mpmgeo.shapes.shape import cut_of, cuts, stencil, width
 
 ALL = SHAPES | {"spline6": Spline6(), "spline10": Spline10()}
 SHAPE = pytest.mark.parametrize("shape", ALL.values(), ids=ALL)
@@ -19,7 +21,7 @@ half_size = st.floats(1e-3, 0.5)
 
 def parts(shape, s, l):
     """Return weights (S,), slopes (S,) and node positions (S,) from the middle, in cells."""
-    values = np.array(stencil(shape, s, l, None))
+    values = np.array(stencil(shape, s, l, cut_of(shape, None, 0)))
     S = width(shape)
     assert values.shape == (2 * S,) and np.isfinite(values).all()
     return values[:S], values[S:], np.arange(S) - (S - 1) / 2
@@ -111,3 +113,90 @@ def test_a_hair_beyond_the_edge_does_no_harm(shape, edge):
     weights, slopes, node = parts(shape, edge * (1 + 1e-12), 0.25)
     assert abs(weights.sum() - 1) < 1e-14 and abs(slopes.sum()) < 1e-13
     assert weights @ node == pytest.approx(edge, abs=1e-11)
+
+
+ENDING = {name: shape for name, shape in ALL.items() if cuts(shape)}
+CELLS = pytest.mark.parametrize("cells", [1, 2, 3, 7])
+WALLS = pytest.mark.parametrize("walls", [(0, 0), (0, 1), (1, 0), (1, 1)], ids=str)
+ENDS = pytest.mark.parametrize("shape", ENDING.values(), ids=ENDING)
+
+
+def between(shape, x, cells, walls=(1, 1)):
+    """Return weights and slopes of the nodes of a mesh and two beyond each side, at x [cells]."""
+    S = width(shape)
+    first = floor(x - (S - 2) / 2)
+    places = (0.0 if walls[0] else -inf, float(cells) if walls[1] else inf)
+    cut = cut_of(shape, places, first)
+    values = np.array(stencil(shape, x - first - (S - 1) / 2, 0.25, cut))
+    out = np.zeros((2, cells + 6))
+    out[:, first + 2 : first + 2 + S] = values.reshape(2, S)
+    return out[:, : cells + 5]
+
+
+def places(cells):
+    """Return places all over the mesh, the nodes and the walls to the last bit among them."""
+    near = [0.0, 1e-300, 1e-17, 1e-15, 1e-9, 0.25, 0.5, np.nextafter(0.5, 0)]
+    near += [cells - x for x in near] + [np.nextafter(cells, 0)]
+    return [*near, *np.arange(cells), *np.linspace(0, cells, 16 * cells + 1)]
+
+
+@ENDS
+@CELLS
+@WALLS
+def test_walls_keep_constant_and_linear_fields(shape, cells, walls):
+    """And no node has a negative weight; those beyond a wall have none, and no slope."""
+    node = np.arange(cells + 5) - 2.0
+    for x in places(cells):
+        weights, slopes = between(shape, x, cells, walls)
+        assert abs(weights.sum() - 1) < 1e-14 and abs(slopes.sum()) < 1e-13
+        assert abs(weights @ node - x) < 1e-14 * max(1, cells) and abs(slopes @ node - 1) < 1e-12
+        assert weights.min() >= 0.0
+        beyond = (node < 0) * walls[0] + (node > cells) * walls[1] > 0
+        assert not weights[beyond].any() and not slopes[beyond].any()
+
+
+@ENDS
+@CELLS
+def test_nothing_but_the_node_on_a_wall_acts_there(shape, cells):
+    for x, at in ((0.0, 2), (float(cells), cells + 2)):
+        weights, _ = between(shape, x, cells)
+        assert weights[at] == pytest.approx(1.0, abs=1e-14)
+        assert 0 < np.delete(weights, at).sum() < 1e-14
+
+
+@ENDS
+@CELLS
+def test_slopes_at_walls_are_those_of_the_weights(shape, cells):
+    d = 1e-6
+    for x in np.linspace(1e-5, cells - 1e-5, 40 * cells):
+        slopes = between(shape, x, cells)[1]
+        high, low = between(shape, x + d, cells)[0], between(shape, x - d, cells)[0]
+        assert np.abs((high - low) / (2 * d) - slopes).max() < 1e-9 + d
+
+
+@ENDS
+def test_one_cell_between_walls_has_hats(shape):
+    for x in places(1):
+        weights, slopes = between(shape, x, 1)
+        assert weights[2:4] == pytest.approx([1 - x, x], abs=1e-14)
+        assert slopes[2:4] == pytest.approx([-1, 1], abs=1e-14)
+
+
+@ENDS
+def test_walls_do_not_act_from_afar(shape):
+    for x in np.linspace(2, 5, 31):
+        np.testing.assert_array_equal(between(shape, x, 7), between(shape, x, 7, (0, 0)))
+
+
+@ENDS
+def test_mirrored_walls(shape):
+    for x in np.linspace(0, 3, 50):
+        weights, slopes = between(shape, x, 3)
+        mirrored, turned = between(shape, 3 - x, 3)
+        assert np.abs(mirrored[::-1] - weights).max() < 1e-14
+        assert np.abs(turned[::-1] + slopes).max() < 1e-13
+
+
+@pytest.mark.parametrize("name", sorted(set(ALL) - set(ENDING)))
+def test_other_shapes_are_told_of_no_walls(name):
+    assert cut_of(ALL[name], (0.0, 7.0), 0) is None

@@ -29,7 +29,7 @@ def build(case):
     population, velocity, law = populate(case, notes)
     mesh = Mesh.of(case.mesh.cells_dimension, case.mesh.cells_number)
     legacy = case.compatibility is not None
-    shapes = SHAPES | AS_MPM_GEOMECHANICS if legacy else SHAPES
+    shapes = AS_MPM_GEOMECHANICS if legacy else SHAPES
     shape = shapes[case.shape_function]
     damping, early = _damping(case)
     tools, tool = bind_tools(case, population, velocity)

@@ -1,4 +1,7 @@
-"""Schemes and shapes that do not go together."""
+"""Schemes and shapes that do not go together, and shapes that the compatibility switch lacks."""
+
+from mpmgeo.shapes import AS_MPM_GEOMECHANICS, SHAPES
+from mpmgeo.values import shown
 
 LINEAR_LAST = (
     '"linear" with the scheme USL diverges in plain cases, such as a block that falls, whatever '
@@ -8,7 +11,13 @@ LINEAR_LAST = (
 
 
 def check_schemes(draft, report):
-    """Warn of a shape whose nodes the scheme does not hold."""
+    """Warn of a shape whose nodes the scheme does not hold; report one that there is not."""
     case = draft.whole.values
-    if case.get("shape_function") == "linear" and case.get("stress_scheme_update") == "USL":
+    shape = case.get("shape_function")
+    if shape == "linear" and case.get("stress_scheme_update") == "USL":
         report.warn(("shape_function",), LINEAR_LAST)
+    is_ours = shape in SHAPES and shape not in AS_MPM_GEOMECHANICS
+    if is_ours and case.get("compatibility") is not None:
+        words = ", ".join(map(shown, AS_MPM_GEOMECHANICS))
+        message = f"MPM-Geomechanics has no {shown(shape)}; accepted with compatibility: {words}"
+        report.error(("shape_function",), message)

@@ -78,6 +78,8 @@ MEANINGS = {
     "free": ("open", "none", "outflow"),
     "linear": ("standard", "hat", "tent"),
     "GIMP": ("ugimp", "cpgimp", "generalized"),
+    "quadratic-bspline": ("quadratic", "bspline", "spline", "quadraticspline"),
+    "cubic-bspline": ("cubic", "cubicspline"),
 }
 """Word of a case → other words for it, in small letters without separators."""
 

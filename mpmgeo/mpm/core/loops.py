@@ -12,7 +12,14 @@ from typing import NamedTuple
 import numpy as np
 
 from mpmgeo.boundaries.planes import touches
-from mpmgeo.mpm.core.tile import block_bounds, block_origin, copy_tile, rows, sum_tiles
+from mpmgeo.mpm.core.tile import (
+    block_bounds,
+    block_origin,
+    block_walls,
+    copy_tile,
+    rows,
+    sum_tiles,
+)
 from mpmgeo.numerics.chunks import CHUNKS, blockwise
 from mpmgeo.numerics.dispatch import generic
 from mpmgeo.numerics.jit import inlined
@@ -35,6 +42,7 @@ class Here(NamedTuple):
     origin: object  # position of its first node
     low: object  # bounds of its particles, in cells
     high: object
+    walls: object  # where the shape ends, in cells from the block; None if it does not
     source: np.ndarray  # copy of the nodes under the tile
     tiles: tuple  # tiles to fill, those of one or more fields
     n0: int  # where the block's tile begins in each
@@ -94,10 +102,10 @@ def _fetch(nodes, b, row, tile):
 def over_particles(c, work, shape, frame, place, half, x, nodes, scratch, tiles, fresh, a):
     """Visit the particles of blocks; return how many left theirs.
 
-    `frame`: numbers of the mesh; `place`: bounds of the chunks of blocks, first particle and end of
-    each, corners; `nodes`: the records to read, and which blocks of them lie under each tile, or
-    None; `scratch`: room for a copy of them; `tiles`: those of one or more fields, emptied before
-    if they are to be `fresh`.
+    `frame`: numbers of the mesh and its walls; `place`: bounds of the chunks of blocks, first
+    particle and end of each, corners; `nodes`: the records to read, and which blocks of them lie
+    under each tile, or None; `scratch`: room for a copy of them; `tiles`: those of one or more
+    fields, emptied before if they are to be `fresh`.
     """
     mesh = mesh_of(frame)
     chunk, begin, end, corner = place
@@ -116,7 +124,8 @@ def over_particles(c, work, shape, frame, place, half, x, nodes, scratch, tiles,
         at = (corner[b, 0], corner[b, 1], corner[b, 2])
         low, high = block_bounds(shape, mesh, at)
         origin = block_origin(mesh, at)
-        here = Here(shape, mesh, half, x, c, b, at, row, origin, low, high, tile, tiles, n0)
+        walls = block_walls(shape, frame, at)
+        here = Here(shape, mesh, half, x, c, b, at, row, origin, low, high, walls, tile, tiles, n0)
         for p in range(begin[b], end[b]):
             gone += visit(work, here, a, p)
     return gone

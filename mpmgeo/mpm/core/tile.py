@@ -19,7 +19,8 @@ from mpmgeo.numerics.simd import (
     store,
     truncate,
 )
-from mpmgeo.shapes.shape import stencil, width
+from mpmgeo.shapes.shape import cut_of, stencil, width
+from mpmgeo.state.grid import walls_of
 from mpmgeo.state.layout import NODES, SIDE, block_of, blocks_along, inner, place, volume
 
 
@@ -68,6 +69,26 @@ def block_bounds(shape, mesh, corner):
     return low, pack4(x, y, z, 0.0)
 
 
+def block_walls(shape, frame, corner):
+    """Return the walls for `cut_of`, in cells from a block; None for shapes that do not end."""
+
+
+@overload(block_walls, jit_options=INLINED)
+def _block_walls(shape, frame, corner):
+    if not getattr(shape.instance_class, "cuts", False):
+        return lambda shape, frame, corner: None
+
+    def walls(shape, frame, corner):
+        low, high = walls_of(frame)
+        i, j, k = corner[0] * SIDE, corner[1] * SIDE, corner[2] * SIDE
+        return (
+            pack4(low[0] - i, low[1] - j, low[2] - k, 0.0),
+            pack4(high[0] - i, high[1] - j, high[2] - k, 0.0),
+        )
+
+    return walls
+
+
 @inlined
 def in_block(mesh, origin, X):
     """Return a position from the first node of a block at `origin`, in cells."""
@@ -75,11 +96,14 @@ def in_block(mesh, origin, X):
 
 
 @inlined
-def stencils(shape, half, g, last, p):
-    """Return the first node of particle p at g, in cells, at most `last`, and its stencils."""
+def stencils(shape, half, walls, g, last, p):
+    """Return the first node of particle p at g, in cells, at most `last`, and its stencils.
+
+    `walls`: where shapes end, in cells, or None.
+    """
     S = width(shape)
     first = min(max(truncate(g - 0.5 * (S - 2)), 0.0), last)
-    w = stencil(shape, g - first - 0.5 * (S - 1), half_size(half, p), None)
+    w = stencil(shape, g - first - 0.5 * (S - 1), half_size(half, p), cut_of(shape, walls, first))
     return first, along(w, 0), along(w, 1), along(w, 2)
 
 
@@ -91,7 +115,7 @@ def locate(here, p):
     tile.
     """
     g = in_block(here.mesh, here.origin, load_row(here.x, p))
-    first, wx, wy, wz = stencils(here.shape, here.half, g, SIDE - 1.0, p)
+    first, wx, wy, wz = stencils(here.shape, here.half, here.walls, g, SIDE - 1.0, p)
     # whole numbers below a million: the product in doubles is exact, and there already
     row = here.rows
     n = (lane(first, 0) * row[1] + lane(first, 1)) * row[2] + lane(first, 2)

@@ -16,7 +16,8 @@ class Base(Effect):
     def join(self, solver):
         """Make the lowest plane the base, if it is."""
         self.solver = solver
-        self.planes = solver.planes = self.motion.planes(solver.planes)
+        self.planes = self.motion.planes(solver.planes)
+        solver.bound(self.planes)
 
     def begin(self, solver, h):
         """Take the base on by a step, until its record ends."""
@@ -24,7 +25,7 @@ class Base(Effect):
             return
         solver.motion = self.motion.advance(solver.time, h)
         if self.motion.ended:
-            solver.planes = self.motion.planes_after(solver.planes)
+            solver.bound(self.motion.planes_after(solver.planes))
 
     def news(self, solver):
         """Tell when the record ends."""
@@ -45,5 +46,5 @@ class Base(Effect):
         """Go on with what `held` once returned, with the planes that follow from it."""
         motion, planes = self.motion, self.planes
         motion.velocity, motion.ended = vector_from(state, "velocity"), truth_from(state, "ended")
-        self.solver.planes = motion.planes_after(planes) if motion.ended else planes
+        self.solver.bound(motion.planes_after(planes) if motion.ended else planes)
         self.solver.motion = STILL

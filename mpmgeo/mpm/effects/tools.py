@@ -110,5 +110,12 @@ class Tools(Effect):
 
     def keeping(self, walls):
         """Return the planes that particles do not pass: not those that move."""
-        moved = {walls._fields[axis + 3 * side]: False for axis, side in filter(None, self.planes)}
-        return walls._replace(**moved)
+        return self._with_planes(walls, False)
+
+    def cutting(self, walls):
+        """Return the planes at which shapes may end: those that move, too."""
+        return self._with_planes(walls, True)
+
+    def _with_planes(self, walls, value):
+        own = (axis + 3 * side for axis, side in filter(None, self.planes))
+        return walls._replace(**{walls._fields[number]: value for number in own})

@@ -19,10 +19,13 @@ A particle with a gap need not be looked at until the nodes near the ground have
 
 from typing import NamedTuple
 
+from numba.core.types import NoneType
+from numba.extending import overload
+
 from mpmgeo.mpm.core.loops import is_idle, visit
 from mpmgeo.mpm.core.tile import collect_value, deposit_value, half_size, in_block, locate, stencils
 from mpmgeo.mpm.terrain.ground import level_at, tile_origin
-from mpmgeo.numerics.jit import inlined
+from mpmgeo.numerics.jit import INLINED, inlined
 from mpmgeo.numerics.simd import LANES, lane, load_row, pack, pack4
 from mpmgeo.state.layout import SIDE, place, volume
 
@@ -45,7 +48,7 @@ def locate_both(here, shift, offset, p):
     """
     X, last = _relative(load_row(here.x, p), offset)
     g = in_block(here.mesh, tile_origin(here.mesh, here.corner, shift), X)
-    first, wx, wy, wz = stencils(here.shape, here.half, g, last, p)
+    first, wx, wy, wz = stencils(here.shape, here.half, walls_at(here, offset), g, last, p)
     i, j, k = int(lane(first, 0)), int(lane(first, 1)), int(lane(first, 2))
     return place(longer(here.rows), i, j, k), place(here.rows, i, j, k) * LANES, wx, wy, wz
 
@@ -56,6 +59,18 @@ def _relative(X, offset):
     if offset is None:
         return X, SIDE - 1.0
     return X - pack4(offset[0], offset[1], offset[2], 0.0), 1.0 * SIDE
+
+
+def walls_at(here, offset):
+    """Return where shapes end; ground that has moved has distances beyond the walls, too."""
+    return here.walls if offset is None else None
+
+
+@overload(walls_at, jit_options=INLINED)
+def _walls_at(here, offset):
+    if isinstance(offset, NoneType):
+        return lambda here, offset: here.walls
+    return lambda here, offset: None
 
 
 @inlined

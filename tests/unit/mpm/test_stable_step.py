@@ -54,6 +54,16 @@ def test_slopes_go_with_the_edges_of_cells():
     assert long.gradient == pytest.approx(cube.gradient * 100, rel=0.01)
 
 
+@pytest.mark.parametrize("filtered", [False, True])
+@pytest.mark.parametrize("name", ["quadratic-bspline", "cubic-bspline"])
+def test_shapes_that_end_at_walls(name, filtered):
+    """Also for particles of unlike edges; at a wall a layer on its own has a node of weight l."""
+    found = slopes(SHAPES[name], filtered, (0.5, 0.25, 1 / 6), CUBE)
+    assert 0 < found.gradient <= found.divergence < np.inf
+    if not filtered:
+        assert of(SHAPES[name], filtered, 0.5).divergence > 3 * 4.0
+
+
 def test_means_over_cells_are_not_steeper():
     found = of(GIMP, False, 0.125)
     assert found.mean_divergence < found.divergence

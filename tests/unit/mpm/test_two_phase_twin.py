@@ -5,7 +5,7 @@ import pytest
 
 import mpmgeo
 from mpmgeo.materials.law import update_stress
-from mpmgeo.shapes.shape import stencil, width
+from mpmgeo.shapes.shape import cut_of, stencil, width
 from mpmgeo.verify.dense_grid import Box, free_components
 
 STEPS = 12
@@ -51,7 +51,7 @@ class Twin:
     def __init__(self, solver, smooth):
         self.s, self.smooth, self.steps = solver, smooth, 0
         mesh, n = solver.grid.mesh, solver.count
-        self.box = Box(mesh, mesh[:3], mesh[6:], ghosts=3)
+        self.box = Box.of(mesh, solver.planes, ghosts=3)
         self.planes = free_components(self.box, solver.planes).reshape(-1, 3)
         self.walls = free_components(self.box, solver.effect("fluid").walls).reshape(-1, 3)
         for name in ("x", "v", "vf", "stress", "m", "mf", "pf", "V", "pull", "half", "free"):
@@ -75,9 +75,11 @@ class Twin:
         for p, x in enumerate(self.x):
             g = x / self.box.cell
             first = np.floor(g - 0.5 * (S - 2)).astype(int)
+            middle = g - first - 0.5 * (S - 1)
+            inputs = middle, self.half[p], first, self.box.lower, self.box.upper
             parts = [
-                np.array(stencil(self.s.shape, s, l, None))
-                for s, l in zip(g - first - 0.5 * (S - 1), self.half[p], strict=True)
+                np.array(stencil(self.s.shape, s, l, cut_of(self.s.shape, walls, f)))
+                for s, l, f, *walls in zip(*inputs, strict=True)
             ]
             i, j, k = (slice(f + self.box.ghosts, f + self.box.ghosts + S) for f in first)
             w, d = [a[:S] for a in parts], [a[S:] for a in parts]
@@ -167,6 +169,8 @@ CASES = {
         "pore_pressure_smoothing": False,
     },
     "USL, linear": {"shape_function": "linear"},
+    "USL, quadratic": {"shape_function": "quadratic-bspline"},
+    "MUSL, cubic": {"shape_function": "cubic-bspline", "stress_scheme_update": "MUSL"},
 }
 
 

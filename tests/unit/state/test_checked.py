@@ -15,7 +15,8 @@ from mpmgeo.mpm.terrain.contact import Contact
 def base(**state):
     motion = BaseMotion(record=None)
     made = Base(motion)
-    made.join(SimpleNamespace(planes=Planes(0, 0, 0, 0, 0, 0, upper_wins=False)))
+    planes = Planes(0, 0, 0, 0, 0, 0, upper_wins=False)
+    made.join(SimpleNamespace(planes=planes, bound=lambda planes: None))
     made.take({"velocity": [1, 0.0, 2.5], "ended": False} | state)
     return motion.velocity
 

@@ -3,6 +3,7 @@
 import pytest
 
 from mpmgeo.case.load import CaseError, load_case
+from mpmgeo.shapes import SHAPES
 
 
 def problems(case):
@@ -44,7 +45,7 @@ def test_bodies_must_not_need_more_particles_than_fit(case):
     assert problem.startswith("body.block: the body needs about 6.4e+19 particle positions")
 
 
-@pytest.mark.parametrize("shape", ["GIMP", "linear"])
+@pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("scheme", ["USL", "MUSL", "USF"])
 @pytest.mark.parametrize("time_step", [1e-9, None])
 def test_usl_with_linear_is_warned_of_whatever_the_step(case, shape, scheme, time_step):
@@ -56,6 +57,17 @@ def test_usl_with_linear_is_warned_of_whatever_the_step(case, shape, scheme, tim
         assert '"stress_scheme_update": "MUSL" mends it' in warning
     else:
         assert warnings == ()
+
+
+@pytest.mark.parametrize("shape", ["quadratic-bspline", "cubic-bspline"])
+def test_splines_are_not_as_in_mpm_geomechanics(case, shape):
+    case |= {"shape_function": shape}
+    assert load_case(case).shape_function == shape
+    (problem,) = problems(case | {"compatibility": "mpm-geomechanics"})
+    assert problem == (
+        f'shape_function: MPM-Geomechanics has no "{shape}"; '
+        'accepted with compatibility: "GIMP", "linear"'
+    )
 
 
 def test_usl_need_not_be_written_to_be_warned_of(case):
