@@ -33,15 +33,15 @@ class Elastic(Law):
     @property
     def symbols(self) -> Symbols:
         """Return what the kernels use."""
-        G = self.young / (2 * (1 + self.poisson))
-        K = self.young / (3 * (1 - 2 * self.poisson))
-        return Symbols(λ=K - 2 * G / 3, G2=2 * G)
+        λ, G2, _ = self.moduli
+        return Symbols(λ, G2)
 
     @property
     def moduli(self) -> Moduli:
         """Return λ and 2G, without viscosity."""
-        K, G = self.young / (3 * (1 - 2 * self.poisson)), self.young / (2 * (1 + self.poisson))
-        return Moduli(K - 2 * G / 3, 2 * G)
+        G = self.young / (2 * (1 + self.poisson))
+        K = self.young / (3 * (1 - 2 * self.poisson))
+        return Moduli(λ=K - 2 * G / 3, G2=2 * G)
 
     def sound_speed(self) -> float:
         """Return the speed of the compression wave [m/s]."""
@@ -69,6 +69,7 @@ def elastic(law, stress, strain, state, dt):
     return hooke(law, stress, strain)
 
 
+@strain_energy.register(Symbols)
 @inlined
 def hooke_energy(law, stress):
     """Return ½ σ : ε [J/m³] for the elastic strain of a stress, for any law with λ and G2."""
@@ -76,8 +77,3 @@ def hooke_energy(law, stress):
     tr = xx + yy + zz
     square = xx * xx + yy * yy + zz * zz + 2.0 * (xy * xy + yz * yz + xz * xz)
     return (square - law.λ / (3.0 * law.λ + law.G2) * tr * tr) / (2.0 * law.G2)
-
-
-@strain_energy.register(Symbols)
-def elastic_energy(law, stress):
-    return hooke_energy(law, stress)

@@ -224,8 +224,5 @@ def mohr_coulomb(law, stress, strain, state, dt):
     return on_same_axes(p, y1, y2, y3) + (εp, wide)
 
 
-@strain_energy.register(Constant)
-@strain_energy.register(Softening)
-@strain_energy.register(Undrained)
-def elastic_energy(law, stress):
-    return hooke_energy(law, stress)
+for _symbols in (Constant, Softening, Undrained):
+    strain_energy.register(_symbols)(hooke_energy)

@@ -92,6 +92,4 @@ def mohr_coulomb_legacy(law, stress, strain, state, dt):
     return on_same_axes(p, y1, y2, y3) + (state[0] + εp,)
 
 
-@strain_energy.register(Symbols)
-def elastic_energy(law, stress):
-    return hooke_energy(law, stress)
+strain_energy.register(Symbols)(hooke_energy)

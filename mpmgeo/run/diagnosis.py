@@ -35,12 +35,9 @@ def last_stress(kept, row):
 def _cause(simulation, dt):
     stable = simulation.stable_time_step
     if stable == 0:
-        return f"likely cause: {_method(simulation)} is stable with no time step, try MUSL"
+        return f"likely cause: {method(simulation)} is stable with no time step, try MUSL"
     if dt > stable:
-        return (
-            f"likely cause: the time step of {dt:.4g} s exceeds {stable:.4g} s, up to which "
-            f"{_method(simulation)} is stable, try {0.5 * stable:.2g} s or less"
-        )
+        return too_long(simulation)
     lightest = simulation.nodes().mass.min(initial=np.inf) / simulation.field("mass").min()
     if lightest < 1e-6:
         return (
@@ -48,11 +45,21 @@ def _cause(simulation, dt):
             f"{lightest:.1g} of a particle's; try MUSL, or half the time step"
         )
     return (
-        f"the time step of {dt:.4g} s is below {stable:.4g} s, up to which {_method(simulation)} "
+        f"the time step of {dt:.4g} s is below {stable:.4g} s, up to which {method(simulation)} "
         "is stable; likely causes: very large loads or speeds, or particles squeezed to a fraction "
         "of their size"
     )
 
 
-def _method(simulation):
+def too_long(simulation):
+    """Return that a time step beyond the stable one is the likely cause, and what to try."""
+    stable = simulation.stable_time_step
+    return (
+        f"likely cause: the time step of {simulation.time_step:.4g} s exceeds {stable:.4g} s, up "
+        f"to which {method(simulation)} is stable, try {0.5 * stable:.2g} s or less"
+    )
+
+
+def method(simulation):
+    """Return the scheme and the shape of a simulation, in words."""
     return f"{simulation.case.stress_scheme_update} with {simulation.case.shape_function}"

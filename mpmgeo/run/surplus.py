@@ -4,6 +4,7 @@ from math import inf
 
 import numpy as np
 
+from mpmgeo.run.diagnosis import too_long
 from mpmgeo.run.watch import Watcher, is_due
 
 SHARE = 0.5
@@ -83,11 +84,7 @@ def message(simulation, appeared, within):
 def _cause(simulation):
     case, dt, stable = simulation.case, simulation.time_step, simulation.stable_time_step
     if 0 < stable < dt:
-        return (
-            f"likely cause: the time step of {dt:.4g} s exceeds {stable:.4g} s, up to which "
-            f"{case.stress_scheme_update} with {case.shape_function} is stable, try "
-            f"{0.5 * stable:.2g} s or less"
-        )
+        return too_long(simulation)
     if case.stress_scheme_update == "USL" and case.shape_function == "linear":
         return "likely cause: linear with USL, where nodes of little mass strain too much; try MUSL"
     speed = np.linalg.norm(simulation.field("velocity"), axis=1).max(initial=0.0)

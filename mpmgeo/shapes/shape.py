@@ -39,8 +39,8 @@ def _width(shape):
 
 
 def cuts(shape):
-    """Tell whether the shape ends at walls."""
-    return getattr(type(shape), "cuts", False)
+    """Tell whether the shape, or numba's type of it, ends at walls."""
+    return getattr(getattr(shape, "instance_class", type(shape)), "cuts", False)
 
 
 def cut_of(shape, walls, first):
@@ -55,7 +55,7 @@ def cut_of(shape, walls, first):
 @overload(cut_of, jit_options=INLINED)
 def _cut_of(shape, walls, first):
     has_walls = not isinstance(walls, types.NoneType)
-    return _choose(getattr(shape.instance_class, "cuts", False), has_walls)
+    return _choose(cuts(shape), has_walls)
 
 
 def _choose(ends, has_walls):

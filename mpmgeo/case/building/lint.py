@@ -12,6 +12,7 @@ from mpmgeo.case.coordinates import in_mesh
 from mpmgeo.case.spec import ACTIONS
 from mpmgeo.positions import shown
 from mpmgeo.region import within
+from mpmgeo.run.diagnosis import method
 
 CELLS_PER_WAVELENGTH = 10
 """Cells that a wave needs to travel without losing its shape."""
@@ -54,14 +55,13 @@ def _time_step(simulation) -> Iterator[str]:
     if stable == 0 and step > critical:  # of a scheme and shape that are warned of in any case
         yield f"{key}: {step:.4g} s exceeds the critical {critical:.4g} s; the run may diverge"
     elif 0 < stable < step:
-        method = f"{case.stress_scheme_update} with {case.shape_function}"
         best = f"{MARGIN * stable:.2g} s" if case.time_step else f"{MARGIN * stable / critical:.2g}"
         longer = ""
         if case.stress_scheme_update == "USL":
             longer = ', or "stress_scheme_update": "MUSL"'
         yield (
-            f"{key}: {step:.4g} s exceeds {stable:.4g} s, up to which {method} is stable here; "
-            f"the run may diverge; try {best} or less{longer}"
+            f"{key}: {step:.4g} s exceeds {stable:.4g} s, up to which {method(simulation)} is "
+            f"stable here; the run may diverge; try {best} or less{longer}"
         )
 
 

@@ -44,10 +44,8 @@ def _step(case, time_step):
 
 
 def _gravity(case, position):
-    gravity, laws = (
-        np.array(case.largest_gravity),
-        {law.type for law in case.materials} - {"elastic"},
-    )
+    gravity = np.array(case.largest_gravity)
+    laws = {law.type for law in case.materials} - {"elastic"}
     if not gravity.any():
         if laws and not _moves(case):
             kinds = ", ".join(sorted(laws))

@@ -29,18 +29,14 @@ def confine(law, mesh, x, mass, m, V, state, p):
     `mass`: Σ S mᵢ [kg], `m`: the masses of the particles, None for a law without bound.
     """
     if m is not None:
-        column = _column(law)
+        column = column_of_opening(law)
         if state[p, column] > 0.0:
             φ = mass * V[p] / (m[p] * space(mesh, x, p))
             most = 2.0 * (FULL - φ) / (FULL + φ)
             state[p, column] = min(state[p, column], max(most, 0.0))
 
 
-def _column(law):
-    return column_of_opening(law)
-
-
-@overload(_column, jit_options=INLINED)
+@overload(column_of_opening, jit_options=INLINED)
 def _compiled_column(law):
     column = column_of_opening(law.instance_class)
     return lambda law: column

@@ -19,7 +19,7 @@ from mpmgeo.numerics.simd import (
     store,
     truncate,
 )
-from mpmgeo.shapes.shape import cut_of, stencil, width
+from mpmgeo.shapes.shape import cut_of, cuts, stencil, width
 from mpmgeo.state.grid import walls_of
 from mpmgeo.state.layout import NODES, SIDE, block_of, blocks_along, inner, place, volume
 
@@ -75,7 +75,7 @@ def block_walls(shape, frame, corner):
 
 @overload(block_walls, jit_options=INLINED)
 def _block_walls(shape, frame, corner):
-    if not getattr(shape.instance_class, "cuts", False):
+    if not cuts(shape):
         return lambda shape, frame, corner: None
 
     def walls(shape, frame, corner):
