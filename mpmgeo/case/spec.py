@@ -27,6 +27,7 @@ from mpmgeo.output.fields import (
 from mpmgeo.output.probes import PROBES
 from mpmgeo.parameters import Counts, Placed, Vector, parameter
 from mpmgeo.shapes import SHAPES
+from mpmgeo.shapes.lme import LocalMaxEnt
 
 Law = reduce(or_, LAWS)
 Body = reduce(or_, BODIES)
@@ -202,6 +203,7 @@ class Settings:
     shape_function: str = parameter(
         "Interpolation between particles and grid", choices=tuple(SHAPES), default="GIMP"
     )
+    lme: LocalMaxEnt = parameter("The numbers of the shape LME", default=LocalMaxEnt())
     n_phases: int = parameter(
         "Number of phases: the solid alone, or with a fluid in its pores",
         choices=(1, 2),

@@ -13,7 +13,7 @@ from mpmgeo.damping import LocalDamping
 from mpmgeo.loads import LOADS
 from mpmgeo.mpm.schemes import SCHEMES
 from mpmgeo.mpm.solver import Solver
-from mpmgeo.shapes import AS_MPM_GEOMECHANICS, SHAPES
+from mpmgeo.shapes import AS_MPM_GEOMECHANICS, shape_of
 from mpmgeo.state.grid import Grid, Mesh
 
 TOUCH = 1e-12  # cells by which a particle must reach over a node; less is round-off
@@ -29,8 +29,8 @@ def build(case):
     population, velocity, law = populate(case, notes)
     mesh = Mesh.of(case.mesh.cells_dimension, case.mesh.cells_number)
     legacy = case.compatibility is not None
-    shapes = AS_MPM_GEOMECHANICS if legacy else SHAPES
-    shape = shapes[case.shape_function]
+    name = case.shape_function
+    shape = AS_MPM_GEOMECHANICS[name] if legacy else shape_of(name, case)
     damping, early = _damping(case)
     tools, tool = bind_tools(case, population, velocity)
     contact = bind_terrain(case, mesh, shape.width, population, notes)

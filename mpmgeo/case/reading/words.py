@@ -80,6 +80,7 @@ MEANINGS = {
     "GIMP": ("ugimp", "cpgimp", "generalized"),
     "quadratic-bspline": ("quadratic", "bspline", "spline", "quadraticspline"),
     "cubic-bspline": ("cubic", "cubicspline"),
+    "LME": ("maxent", "localmaxent", "maximumentropy", "localmaximumentropy"),
 }
 """Word of a case → other words for it, in small letters without separators."""
 

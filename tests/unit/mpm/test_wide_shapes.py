@@ -7,10 +7,10 @@ import pytest
 from assembly import RUBBER, assemble, by_row, nodes
 from models import Spline6, Spline10
 
-from mpmgeo.shapes import SHAPES
+from mpmgeo.shapes import SHAPES, shape_of
 from mpmgeo.shapes.shape import cut_of, stencil, width
 
-ALL = SHAPES | {"spline6": Spline6(), "spline10": Spline10()}
+ALL = {name: shape_of(name) for name in SHAPES} | {"spline6": Spline6(), "spline10": Spline10()}
 SHAPE = pytest.mark.parametrize("shape", ALL.values(), ids=ALL)
 CELL, CELLS = np.array([0.5, 0.25, 1.0]), np.array([11, 9, 13])
 MESH = {"cell": tuple(CELL), "cells": tuple(CELLS.tolist())}
