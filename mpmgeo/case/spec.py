@@ -16,7 +16,7 @@ from mpmgeo.boundaries.terrain import TerrainContact
 from mpmgeo.damping import DAMPINGS, NoDamping
 from mpmgeo.loads import LOADS, Gravity
 from mpmgeo.materials import LAWS
-from mpmgeo.mpm.schemes import SCHEMES
+from mpmgeo.mpm.schemes import SCHEMES, NewmarkNumbers
 from mpmgeo.output.fields import (
     FLUID_FIELDS,
     FURTHER_FIELDS,
@@ -37,8 +37,11 @@ Probe = reduce(or_, PROBES)
 ACTIONS = (*LOADS, TerrainContact)
 """All that may act on the material; each is declared in its own file."""
 
+ONE_PHASE_SCHEMES = tuple(word for word in SCHEMES if word not in ("USL", "MUSL"))
+ONE_PHASE = 'is for one phase; accepted with two: "USL", "MUSL"'
+
 NOT_WITH_TWO_PHASES = (
-    ("stress_scheme_update", "USF", '"USF" is for one phase; accepted with two: "USL", "MUSL"'),
+    *(("stress_scheme_update", word, f'"{word}" {ONE_PHASE}') for word in ONE_PHASE_SCHEMES),
     ("compatibility", None, "two phases have no earlier form that is worth keeping; leave it out"),
     ("results.energy", None, "the balance of energy is for one phase; leave it out"),
     *((cls.key, None, cls.one_phase_only) for cls in ACTIONS if cls.one_phase_only),
@@ -196,12 +199,16 @@ class Settings:
         "Share of the critical time step to use when none is given", above=0, default=0.25
     )
     stress_scheme_update: str = parameter(
-        "When stresses are updated: last, last with modified velocities, or first",
+        "When stresses are updated: last, last with modified velocities, first, or between a "
+        "predictor and a corrector",
         choices=tuple(SCHEMES),
         default="USL",
     )
     shape_function: str = parameter(
         "Interpolation between particles and grid", choices=tuple(SHAPES), default="GIMP"
+    )
+    npc: NewmarkNumbers = parameter(
+        "The numbers of the schemes NPC and NPC-CD", default=NewmarkNumbers()
     )
     lme: LocalMaxEnt = parameter("The numbers of the shape LME", default=LocalMaxEnt())
     n_phases: int = parameter(

@@ -4,6 +4,18 @@ Each takes the solver and the step that changes velocities (half a step at first
 live between the positions). The stages' names are those of the timing table; effects join them.
 """
 
+from mpmgeo.mpm.newmark import CentralDifferences, Newmark, NewmarkNumbers, PredictorCorrector
+
+__all__ = [
+    "AS_MPM_GEOMECHANICS",
+    "SCHEMES",
+    "NewmarkNumbers",
+    "first_step",
+    "is_filtered",
+    "longest",
+    "scheme_of",
+]
+
 
 def usl(s, h):
     """Update stress last (Sulsky, Zhou and Schreyer 1995)."""
@@ -30,8 +42,39 @@ def usf(s, h):
     s.gather(h, stress=False)
 
 
-SCHEMES = {"USL": usl, "MUSL": musl, "USF": usf}
+SCHEMES = {
+    "USL": usl,
+    "MUSL": musl,
+    "USF": usf,
+    "NPC": PredictorCorrector(),
+    "NPC-CD": CentralDifferences(),
+}
 
-FILTERED = (musl, usf)
-"""Schemes that strain with velocities which particles brought to the nodes, not with those of nodes
-that forces have moved: they bear longer steps (`mpm.stability`)."""
+AS_MPM_GEOMECHANICS = ("USL", "MUSL", "USF")
+"""Words for schemes that the program MPM-Geomechanics has."""
+
+
+def scheme_of(name, case=None):
+    """Return the scheme of a name, with the numbers of a case, or those that it has by itself."""
+    scheme = SCHEMES[name]
+    return scheme.with_numbers(case.npc) if case and isinstance(scheme, Newmark) else scheme
+
+
+def first_step(scheme):
+    """Return by which share of a step the first one changes velocities."""
+    return 1.0 if isinstance(scheme, Newmark) else 0.5
+
+
+def is_filtered(scheme):
+    """Tell whether strains come from velocities which particles brought to the nodes.
+
+    In USL they come from nodes that forces have moved: it bears shorter steps (`mpm.stability`).
+    """
+    return scheme is not usl
+
+
+def longest(scheme):
+    """Return the largest (ω Δt)² of a vibration that a scheme bears."""
+    if isinstance(scheme, Newmark):
+        return scheme.longest
+    return 4.0 if is_filtered(scheme) else 2.0

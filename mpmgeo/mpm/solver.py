@@ -12,7 +12,9 @@ from mpmgeo.effect import HOOKS, Effect
 from mpmgeo.formulation import Energies
 from mpmgeo.materials.law import stores_energy
 from mpmgeo.mpm.incidents import Departures, Unsound
+from mpmgeo.mpm.newmark import Newmark
 from mpmgeo.mpm.persistence import copy_of, state_of, take_over
+from mpmgeo.mpm.schemes import first_step
 from mpmgeo.mpm.stages import Stages
 from mpmgeo.mpm.tally import tally
 from mpmgeo.mpm.task import OnePhase
@@ -66,6 +68,8 @@ class Solver(Stages):
         self.nodal = OnePhase()
         for s in self.sets:
             s.lie_in(self.grid)
+            if isinstance(self.scheme, Newmark) and s.a is None:
+                s.a = np.zeros_like(s.v)
         self.asked = {
             hook: [getattr(effect, hook) for effect in self.effects if effect.overrides(hook)]
             for hook in HOOKS
@@ -114,8 +118,8 @@ class Solver(Stages):
             self._sort(judge=False)
 
     def step(self):
-        """Advance by one time step; the first one changes velocities by half a step."""
-        h = 0.5 * self.time_step if self.steps == 0 else self.time_step
+        """Advance by one time step; the first may change velocities by less (`first_step`)."""
+        h = self.time_step * (first_step(self.scheme) if self.steps == 0 else 1.0)
         self.clock.begin()
         if self.gone:
             self._sort()

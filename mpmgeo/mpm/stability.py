@@ -8,7 +8,8 @@ hold for boxes of particles, whose weights and slopes are products of those of t
     Σ = Σₐ μₐ/hₐ²,  μ = max uᵀAu,      Γ = max Σₐ uₐᵀAuₐ/hₐ² · u_bᵀPu_b · u_cᵀPu_c,      |u| = 1
 
     A = w M^−½ BᵀB M^−½,  P = w M^−½ SᵀS M^−½        for strains from velocities of nodes, n = 2
-    A → P^½ A P^½,        P → P²                     for strains from those of particles, n = 4
+    A → P^½ A P^½,        P → P²                     for strains from those of particles, n = 4, or
+                                                     as `mpm.newmark` says
 
 S, B: weights and slopes (particles, nodes), M: masses of nodes, w: that of a particle, in cells;
 the largest over the places of a row on the grid. A node at the end of a row may belong to one
@@ -57,9 +58,8 @@ def has_stable_step(shape, filtered):
     return filtered or type(shape).edge >= 2
 
 
-def stable_time_step(frequency, decay, filtered):
-    """Return Δt [s] of ω² [1/s²] and d [1/s]; `filtered`: strains from velocities of particles."""
-    n = 4.0 if filtered else 2.0
+def stable_time_step(frequency, decay, n):
+    """Return Δt [s] of ω² [1/s²] and d [1/s]; n: the largest (ω Δt)² that the scheme bears."""
     return n / (decay + sqrt(decay * decay + n * frequency))
 
 

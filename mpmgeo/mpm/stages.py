@@ -6,6 +6,7 @@ A stage does its own work for all particles or nodes, and lets the effects do th
 import numba
 
 from mpmgeo.mpm.core.loops import over_nodes, over_particles
+from mpmgeo.mpm.core.newmark import Correct, Predict
 from mpmgeo.mpm.core.transfer import Gather, Remap, Scatter, StrainAndForce
 from mpmgeo.numerics.chunks import ALONE, crew_of
 
@@ -58,6 +59,13 @@ class Stages(Loops):
             fresh = False
         self.clock.lap("scatter")
 
+    def predict(self, ahead):
+        """Fill the tiles with mass, momentum as it would be `ahead` [s] and external force."""
+        for number, s in enumerate(self.sets):
+            work = Predict(self.gravity, 0.0 if s.tool is None else 1.0, ahead)
+            self.over_particles(work, s, (s.v, s.a, s.m, s.force), fresh=number == 0)
+        self.clock.lap("scatter")
+
     def update_momentum(self, h):
         """Integrate the nodal momentum over h."""
         task = self.nodal.momentum(self, h)
@@ -95,6 +103,20 @@ class Stages(Loops):
         self.clock.lap("remap")
         for act in self.asked["after_remap"]:
             act(self, h)
+
+    def correct(self, h, old, new, further):
+        """Move particles by h v + `further` a, change velocities by `old` a + `new` a.
+
+        v and the new a are those of the nodes, the old a those that the particles had.
+        """
+        for act in self.asked["before_gather"]:
+            act(self, h)
+        for s in self.sets:
+            work = Correct(h, old, new, further)
+            self.gone += self.over_particles(work, s, (s.v, s.a), None, self.grid.nodes)
+        self.clock.lap("gather")
+        for act in self.asked["after_gather"]:
+            self.gone += act(self)
 
     def strain_and_force(self):
         """Update stress with the nodal velocities, add the internal force to the tiles."""

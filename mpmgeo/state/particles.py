@@ -15,7 +15,7 @@ from mpmgeo.state.grid import cut
 
 ARRAYS = (
     *("row", "x", "v", "m", "V", "stress", "half", "force", "state", "pressure", "strain", "work"),
-    *("mf", "vf", "pf", "free", "pull"),
+    *("a", "mf", "vf", "pf", "free", "pull"),
     *("due", "contact"),
 )
 """Fields of a set that are arrays, if they are there, with a row for each particle."""
@@ -60,6 +60,7 @@ class ParticleSet:
     pressure: np.ndarray | None = None  # (n,) given pore pressure [Pa], compression positive
     strain: np.ndarray | None = None  # (n, 6) sum of the strain increments [-]
     work: np.ndarray | None = None  # (n, 2) done by stresses, and by pressure in opening [J]
+    a: np.ndarray | None = None  # (n, 3) acceleration in the last step [m/s²]
     due: np.ndarray | None = None  # (n,) when to look for contact, see `mpm.touch`; −1 in contact
     contact: np.ndarray | None = None  # (n, …) forces and shift of contact, see `mpm.terrain`
     tool: int | None = None  # number of the prescribed velocity that the particles have
@@ -125,8 +126,10 @@ class ParticleSet:
         self.start, self.chunk = start.copy(), chunk.copy()
 
     def stop(self):
-        """Set the velocities of the active particles to zero, of both phases."""
+        """Stop the active particles, both phases of them."""
         self.v[: self.active] = 0.0
+        if self.a is not None:
+            self.a[: self.active] = 0.0
         if self.fluid is not None:
             self.vf[: self.active] = 0.0
 

@@ -11,7 +11,7 @@ from mpmgeo.case.building.time_step import time_step
 from mpmgeo.case.coordinates import in_mesh
 from mpmgeo.damping import LocalDamping
 from mpmgeo.loads import LOADS
-from mpmgeo.mpm.schemes import SCHEMES
+from mpmgeo.mpm.schemes import scheme_of
 from mpmgeo.mpm.solver import Solver
 from mpmgeo.shapes import AS_MPM_GEOMECHANICS, shape_of
 from mpmgeo.state.grid import Grid, Mesh
@@ -56,7 +56,7 @@ def build(case):
         sets=sets,
         population=population,
         shape=shape,
-        scheme=SCHEMES[case.stress_scheme_update],
+        scheme=scheme_of(case.stress_scheme_update, case),
         planes=Planes.of(case.mesh.boundary_conditions),
         time_step=time_step(case, velocity),
         gravity=case.largest_gravity,

@@ -6,7 +6,7 @@ import numpy as np
 
 from mpmgeo.materials import saturation
 from mpmgeo.mpm import stability
-from mpmgeo.mpm.schemes import FILTERED
+from mpmgeo.mpm.schemes import is_filtered, longest
 from mpmgeo.positions import mean_edge
 
 
@@ -39,7 +39,7 @@ def stable_time_step(case, solver, velocity):
     It knows scheme, shape, sizes of particles, edges of cells, materials and phases; 0 if there is
     no such step, infinite without particles. It shrinks with speed as the critical one does.
     """
-    filtered, speed = solver.scheme in FILTERED, _fastest(velocity)
+    filtered, speed = is_filtered(solver.scheme), _fastest(velocity)
     if not stability.has_stable_step(solver.shape, filtered):
         return 0.0
     laws = {law.id: law for law in reversed(case.materials)}
@@ -49,23 +49,23 @@ def stable_time_step(case, solver, velocity):
         slopes = stability.slopes(solver.shape, filtered, half, case.mesh.cells_dimension)
         two = case.n_phases == 2
         wave = saturation.wave_speed(law) if two else law.sound_speed()
-        step = (_of_two_phases if two else _of_one_phase)(case, law, slopes, filtered)
+        step = (_of_two_phases if two else _of_one_phase)(case, law, slopes, longest(solver.scheme))
         steps.append(step * wave / (wave + speed))
     return min(steps)
 
 
-def _of_one_phase(case, law, slopes, filtered):
+def _of_one_phase(case, law, slopes, n):
     stiffness, viscosity = law.resistance(slopes)
-    return stability.stable_time_step(stiffness / law.density, viscosity / law.density, filtered)
+    return stability.stable_time_step(stiffness / law.density, viscosity / law.density, n)
 
 
-def _of_two_phases(case, law, slopes, filtered):
+def _of_two_phases(case, law, slopes, n):
     """Return the step [s] with the drag of a shorter one, the one without drag."""
     decay = law.resistance(slopes)[1] / saturation.densities(law)[0]
     rate, step = saturation.drag_rate(law, case.conductivity_gravity), 0.0
     for _ in range(2):
         ω2 = saturation.frequency(law, slopes, case.pore_pressure_smoothing, rate * step)
-        step = stability.stable_time_step(ω2, decay, filtered)
+        step = stability.stable_time_step(ω2, decay, n)
     return step
 
 

@@ -44,13 +44,14 @@ def scatter(work, here, a, p):
     g = work.gravity
     weight = pack(1.0, 0.0, 0.0, 0.0, g[0], g[1], g[2], work.tool)
     n, wx, wy, wz = locate(here, p)
-    C0 = _loaded(momentum_and_weight(m, v, weight, p), force, p)
+    C0 = loaded(momentum_and_weight(m, v, weight, p), force, p)
     _deposit_all(here, n, wx, wy, wz, C0, V, stress, pressure, p)
     return 0
 
 
 @inlined
-def _loaded(C0, force, p):
+def loaded(C0, force, p):
+    """Return a particle's record with its load beside gravity."""
     if force is None:
         return C0
     return add(C0, pack(0.0, 0.0, 0.0, 0.0, force[p, 0], force[p, 1], force[p, 2], 0.0))

@@ -74,10 +74,10 @@ def test_shapes_that_only_tests_know():
 
 
 def test_steps_of_undamped_and_of_overdamped_motions():
-    assert stable_time_step(4.0, 0.0, filtered=True) == pytest.approx(1.0)
-    assert stable_time_step(4.0, 0.0, filtered=False) == pytest.approx(sqrt(0.5))
-    assert stable_time_step(0.0, 4.0, filtered=True) == pytest.approx(0.5)
-    assert stable_time_step(0.0, 4.0, filtered=False) == pytest.approx(0.25)
+    assert stable_time_step(4.0, 0.0, 4.0) == pytest.approx(1.0)
+    assert stable_time_step(4.0, 0.0, 2.0) == pytest.approx(sqrt(0.5))
+    assert stable_time_step(0.0, 4.0, 4.0) == pytest.approx(0.5)
+    assert stable_time_step(0.0, 4.0, 2.0) == pytest.approx(0.25)
 
 
 def test_stiffness_of_laws():
