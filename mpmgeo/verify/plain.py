@@ -6,7 +6,8 @@ with. Capitals are nodal: mass M, momentum P, force F, velocity U, acceleration 
     M = Σ m S,   P = Σ m v S,   F = Σ (f S − V σ ∇S),   A = F/M,   U = P/M + h A
     v ← v + h Σ A S,   x ← x + Δt Σ U S,   L = Σ U ⊗ ∇S,   Δε = ½(L + Lᵀ) Δt
 
-Source: Sulsky, Zhou and Schreyer (1995), Comput. Phys. Commun. 87, 236–252, sections 3 and 4.
+Source: Sulsky, Zhou and Schreyer (1995), Comput. Phys. Commun. 87, 236–252, sections 3 and 4; for
+Newmark's method `mpm.newmark`.
 """
 
 from math import floor, sqrt
@@ -15,7 +16,8 @@ import numpy as np
 
 from mpmgeo.mpm.core.opening import confine
 from mpmgeo.mpm.core.point import advance
-from mpmgeo.mpm.schemes import musl, usf, usl
+from mpmgeo.mpm.newmark import Newmark, PredictorCorrector
+from mpmgeo.mpm.schemes import first_step, musl, usf, usl
 from mpmgeo.numerics.jit import compiled, inlined
 from mpmgeo.shapes.shape import cut_of, stencil, width
 from mpmgeo.verify.dense_grid import Box, free_components
@@ -209,17 +211,19 @@ class PlainSolver:
         self.M = np.zeros(self.free.shape[:3])
         self.P, self.F, self.U, self.A = (np.zeros_like(self.free) for _ in range(4))
         self._copy(solver)
-        self._scheme = {usl: self._usl, musl: self._musl, usf: self._usf}[solver.scheme]
+        self.scheme = solver.scheme
 
     def _copy(self, solver):
         n = solver.count
         self.m, self.V, self.pressure, self.stress = *np.zeros((3, n)), np.zeros((n, 6))
-        self.x, self.v, self.force, self.half = (np.zeros((n, 3)) for _ in range(4))
+        self.x, self.v, self.a, self.force, self.half = (np.zeros((n, 3)) for _ in range(5))
         self.active = np.zeros(n, bool)
         for s in solver.sets:
             self.active[s.row[: s.active]] = True
             self.m[s.row], self.V[s.row], self.half[s.row] = s.m, s.V, s.half
             self.x[s.row], self.v[s.row], self.stress[s.row] = s.x, s.v, s.stress
+            if s.a is not None:
+                self.a[s.row] = s.a
             self.force[s.row] = s.m[:, None] * solver.gravity
             if s.force is not None:
                 self.force[s.row] += s.force
@@ -235,7 +239,11 @@ class PlainSolver:
         """Advance by one time step; the first one changes velocities by half a step."""
         if leave(self.box, self.x, self.active):
             self.sets = [(*laws, rows[self.active[rows]]) for *laws, rows in self.sets]
-        self._scheme(0.5 * self.time_step if self.steps == 0 else self.time_step)
+        h = self.time_step * (first_step(self.scheme) if self.steps == 0 else 1.0)
+        if isinstance(self.scheme, Newmark):
+            self._newmark(self.scheme, h)
+        else:
+            {usl: self._usl, musl: self._musl, usf: self._usf}[self.scheme](h)
         self.steps += 1
 
     def _usl(self, h):
@@ -259,6 +267,26 @@ class PlainSolver:
         self._scatter(None, None, self.F)
         self._update_nodes(h, self.F)
         self._gather(h, self.A, self.U)
+
+    def _newmark(self, scheme, h):
+        is_paper, γ = isinstance(scheme, PredictorCorrector), scheme.γ
+        v, a = self.v.copy(), self.a.copy()
+        self.v += h * (1 - γ if is_paper else 0.5) * a
+        self._scatter(self.M, self.P, None)
+        self._update_nodes(h, None)
+        before = self.U.copy()
+        self._gather(h, None, None, strains=True)
+        self._scatter(None, None, self.F)
+        self._update_nodes(h, self.F)
+        after = before + γ * (self.U - before) if is_paper else before
+        self.v[:] = 0.0
+        self._gather(1.0, self.A, after)
+        self.a, self.v = self.v, v
+        if is_paper:
+            self.x += 0.5 * h * h * self.a
+            self.v += h * self.a
+        else:
+            self.v += (1 - γ) * h * a + γ * h * self.a
 
     def _scatter(self, M, P, F):
         for nodal in (M, P, F):

@@ -117,6 +117,8 @@ CASES = {
     "USL": {},
     "MUSL": {"stress_scheme_update": "MUSL"},
     "USF": {"stress_scheme_update": "USF"},
+    "NPC": {"stress_scheme_update": "NPC", "shape_function": "LME"},
+    "NPC-CD, kinetic damping": KINETIC | {"stress_scheme_update": "NPC-CD"},
     "kinetic damping": KINETIC,
     "local damping": LOCAL,
     "local damping in the old form": LOCAL | OLD,

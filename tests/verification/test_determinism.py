@@ -5,7 +5,7 @@ import pytest
 from assembly import simulate, two_blocks
 
 FIELDS = ("position", "velocity", "stress", "volume", "active")
-SCHEMES = pytest.mark.parametrize("scheme", ["USL", "MUSL", "USF"])
+SCHEMES = pytest.mark.parametrize("scheme", ["USL", "MUSL", "USF", "NPC"])
 
 
 def crash(scheme, threads, water=None, **keys):

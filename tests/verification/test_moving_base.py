@@ -15,7 +15,7 @@ AMPLITUDE = max(BASE.amplitude)
 EVERY = 8  # steps between samples: 1.5 ms
 
 
-@pytest.mark.parametrize("scheme", ["USL", "MUSL"])
+@pytest.mark.parametrize("scheme", ["USL", "MUSL", "NPC"])
 def test_base_moves_as_the_record_says(scheme):
     """Nodes of the base within 0.5 % of the amplitude, lowest particles within 4 %, always.
 

@@ -5,7 +5,7 @@ import pytest
 import terrains
 from terrains import G, axes, on_slope, simulate
 
-SCHEMES = ("USL", "MUSL", "USF")
+SCHEMES = ("USL", "MUSL", "USF", "NPC", "NPC-CD")
 LAYER = 0.25  # cells: from the ground to the lowest particles
 
 

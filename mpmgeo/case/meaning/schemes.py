@@ -1,6 +1,7 @@
-"""Schemes and shapes that do not go together, and shapes that the compatibility switch lacks."""
+"""Schemes and shapes that do not go together, and those that the compatibility switch lacks."""
 
-from mpmgeo.shapes import AS_MPM_GEOMECHANICS, SHAPES
+from mpmgeo import shapes
+from mpmgeo.mpm import schemes
 from mpmgeo.values import shown
 
 LINEAR_LAST = (
@@ -10,14 +11,45 @@ LINEAR_LAST = (
 )
 
 
+KNOWN = {"shape_function": shapes, "stress_scheme_update": schemes}
+"""Keys, with the module that knows which of their words MPM-Geomechanics has."""
+
+
 def check_schemes(draft, report):
-    """Warn of a shape whose nodes the scheme does not hold; report one that there is not."""
+    """Warn of a shape whose nodes the scheme does not hold; report what there is not."""
     case = draft.whole.values
-    shape = case.get("shape_function")
-    if shape == "linear" and case.get("stress_scheme_update") == "USL":
+    scheme = case.get("stress_scheme_update")
+    if case.get("shape_function") == "linear" and scheme == "USL":
         report.warn(("shape_function",), LINEAR_LAST)
-    is_ours = shape in SHAPES and shape not in AS_MPM_GEOMECHANICS
-    if is_ours and case.get("compatibility") is not None:
-        words = ", ".join(map(shown, AS_MPM_GEOMECHANICS))
-        message = f"MPM-Geomechanics has no {shown(shape)}; accepted with compatibility: {words}"
-        report.error(("shape_function",), message)
+    if case.get("compatibility") is not None:
+        for key, known in KNOWN.items():
+            _check_compatible(key, case.get(key), known.AS_MPM_GEOMECHANICS, report)
+    _check_newmark(draft, scheme, report)
+
+
+def _check_compatible(key, word, words, report):
+    if word is not None and word not in words:
+        accepted = ", ".join(map(shown, words))
+        message = f"MPM-Geomechanics has no {shown(word)}; accepted with compatibility: {accepted}"
+        report.error((key,), message)
+
+
+def _check_newmark(draft, scheme, report):
+    """Report what does not go with Newmark's method, note numbers of it without effect."""
+    case = draft.whole
+    is_newmark = isinstance(schemes.SCHEMES.get(scheme), schemes.Newmark)
+    if not is_newmark:
+        if "npc" in case.given:
+            report.note(("npc",), 'has no effect without the scheme "NPC" or "NPC-CD"')
+        return
+    for results in draft.of("results"):
+        if "energy" in results.given:
+            message = f"there is no balance of energy with {shown(scheme)}; leave one of them out"
+            report.error(results.at("energy"), message)
+    for numbers in draft.of("npc"):
+        made = schemes.SCHEMES[scheme].with_numbers(numbers.made) if numbers.made else None
+        if made is not None and made.longest == 0.0:
+            message = (
+                f"{shown(scheme)} diverges with {shown(numbers.made.gamma)}; accepted: 0.5 to 1"
+            )
+            report.error(numbers.at("gamma"), message)

@@ -1,6 +1,7 @@
 """The solver against its plain twin, in scenes where everything happens within a few steps."""
 
 import json
+from itertools import product
 
 import numpy as np
 import pytest
@@ -79,17 +80,29 @@ def assert_same(found, expected, key):
     )
 
 
-@pytest.mark.parametrize("small", [True, False], ids=["serial", "threaded"])
-@pytest.mark.parametrize("scheme", SCHEMES)
-@pytest.mark.parametrize("shape", SHAPES)
-def test_agree(shape, scheme, small):
+QUICK = [("GIMP", scheme) for scheme in SCHEMES]
+QUICK += [("linear", "MUSL"), ("quadratic-bspline", "USF"), ("cubic-bspline", "USL")]
+QUICK += [("LME", "NPC"), ("LME", "USL")]
+OTHERS = [pair for pair in product(SHAPES, SCHEMES) if pair not in QUICK]
+
+
+@pytest.mark.parametrize(
+    "shape, scheme",
+    [*QUICK, *(pytest.param(*pair, marks=pytest.mark.slow) for pair in OTHERS)],
+)
+def test_agree(shape, scheme):
     case = scene(shape_function=shape, stress_scheme_update=scheme)
-    simulation, twin = both(case, small)
+    simulation, twin = both(case)
     start = twin.x.copy()
     assert_same_steps(simulation, twin)
     block = 4 * twin.box.cell[0]
     crossed = np.floor((twin.x[:, 0] - 0.3) / block) != np.floor((start[:, 0] - 0.3) / block)
     assert crossed.sum() > 20
+
+
+@pytest.mark.parametrize("scheme", ["USL", "NPC"])
+def test_agree_with_threads(scheme):
+    assert_same_steps(*both(scene(stress_scheme_update=scheme), small=False))
 
 
 @pytest.mark.parametrize("scheme", SCHEMES)
