@@ -4,7 +4,6 @@ from mpmgeo.boundaries.terrain import TerrainContact
 from mpmgeo.case.spec import ACTIONS, NOT_WITH_TWO_PHASES
 from mpmgeo.materials import saturation
 from mpmgeo.output.fields import FLUID_FIELDS, TERRAIN_FIELDS
-from mpmgeo.shapes import SHAPES
 from mpmgeo.values import shown
 
 
@@ -42,10 +41,6 @@ def note_idle(draft, report):
         is_given = action.key in case.given and case.values.get(action.key) != ()
         if action.needs_two_phases and not two and is_given:
             report.note((action.key,), "has no effect with one phase")
-    for name, shape in SHAPES.items():
-        key = getattr(shape, "key", None)
-        if key in case.given and case.values.get("shape_function") != name:
-            report.note((key,), f"has no effect without the shape function {shown(name)}")
     dry = [("material_point_results", () if two else FLUID_FIELDS, "exists with two phases only")]
     if TerrainContact.key not in case.given:
         dry.append(("stl_contact_mesh", TERRAIN_FIELDS, "exists with a terrain only"))

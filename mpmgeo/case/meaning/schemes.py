@@ -14,6 +14,12 @@ LINEAR_LAST = (
 KNOWN = {"shape_function": shapes, "stress_scheme_update": schemes}
 """Keys, with the module that knows which of their words MPM-Geomechanics has."""
 
+NUMBERS = {
+    "lme": ("shape_function", ("LME",)),
+    "npc": ("stress_scheme_update", ("NPC", "NPC-CD")),
+}
+"""Keys of numbers, with the key and its words without which they have no effect."""
+
 
 def check_schemes(draft, report):
     """Warn of a shape whose nodes the scheme does not hold; report what there is not."""
@@ -25,6 +31,12 @@ def check_schemes(draft, report):
         for key, known in KNOWN.items():
             _check_compatible(key, case.get(key), known.AS_MPM_GEOMECHANICS, report)
     _check_newmark(draft, scheme, report)
+    for key, (choice, words) in NUMBERS.items():
+        for numbers in draft.of(key):
+            says_something = numbers.made is not None and numbers.made != type(numbers.made)()
+            if case.get(choice) not in words and says_something:
+                accepted = " or ".join(map(shown, words))
+                report.note((key,), f'has no effect without "{choice}": {accepted}')
 
 
 def _check_compatible(key, word, words, report):
@@ -35,12 +47,8 @@ def _check_compatible(key, word, words, report):
 
 
 def _check_newmark(draft, scheme, report):
-    """Report what does not go with Newmark's method, note numbers of it without effect."""
-    case = draft.whole
-    is_newmark = isinstance(schemes.SCHEMES.get(scheme), schemes.Newmark)
-    if not is_newmark:
-        if "npc" in case.given:
-            report.note(("npc",), 'has no effect without the scheme "NPC" or "NPC-CD"')
+    """Report what does not go with Newmark's method."""
+    if not isinstance(schemes.SCHEMES.get(scheme), schemes.Newmark):
         return
     for results in draft.of("results"):
         if "energy" in results.given:
