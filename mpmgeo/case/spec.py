@@ -202,6 +202,11 @@ class Settings:
     shape_function: str = parameter(
         "Interpolation between particles and grid", choices=tuple(SHAPES), default="GIMP"
     )
+    particle_domain: str = parameter(
+        "Size of particles in interpolation: as at the start, or following their deformation",
+        choices=("initial", "updated"),
+        default="initial",
+    )
     n_phases: int = parameter(
         "Number of phases: the solid alone, or with a fluid in its pores",
         choices=(1, 2),

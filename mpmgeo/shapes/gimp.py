@@ -14,6 +14,7 @@ from mpmgeo.shapes.shape import stencil
 class Gimp(NamedTuple):
     width = 3
     edge = 2
+    sized = True
 
 
 @stencil.register(Gimp)

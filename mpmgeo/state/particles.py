@@ -16,7 +16,7 @@ from mpmgeo.state.grid import cut
 ARRAYS = (
     *("row", "x", "v", "m", "V", "stress", "half", "force", "state", "pressure", "strain", "work"),
     *("mf", "vf", "pf", "free", "pull"),
-    *("due", "contact"),
+    *("due", "contact", "domain"),
 )
 """Fields of a set that are arrays, if they are there, with a row for each particle."""
 
@@ -62,6 +62,7 @@ class ParticleSet:
     work: np.ndarray | None = None  # (n, 2) done by stresses, and by pressure in opening [J]
     due: np.ndarray | None = None  # (n,) when to look for contact, see `mpm.touch`; −1 in contact
     contact: np.ndarray | None = None  # (n, …) forces and shift of contact, see `mpm.terrain`
+    domain: np.ndarray | None = None  # (n, 6) second moments of domains, see `mpm.core.domain`
     tool: int | None = None  # number of the prescribed velocity that the particles have
     fluid: object = None  # symbols of the pore fluid; with it m is the solid's mass
     mf: np.ndarray | None = None  # (n,) mass of the fluid [kg]
@@ -79,14 +80,15 @@ class ParticleSet:
 
     @property
     def material(self):
-        """Return what an update needs: V, stress, m, state, strain, work, pressure.
+        """Return what an update needs: V, stress, m, state, strain, work, pressure, domain.
 
         The masses only where they bound what tension opens, that is for `GRAINS`, the pressure
         where it works on what opens, and the work is kept.
         """
         m = self.m if getattr(self.law, "GRAINS", False) else None
         pressure = self.pressure if self.work is not None and opens_under_pressure(self) else None
-        return self.V, self.stress, m, self.state, self.strain, self.work, pressure
+        kept = self.strain, self.work, pressure, self.domain
+        return self.V, self.stress, m, self.state, *kept
 
     def volume(self, at=slice(None)):
         """Return the volumes [m³] of the particles `at`, with what tension has opened."""

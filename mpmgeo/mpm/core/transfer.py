@@ -6,6 +6,7 @@ part of m that touches the ground.
 
 from typing import NamedTuple
 
+from mpmgeo.mpm.core.domain import deform
 from mpmgeo.mpm.core.loops import visit
 from mpmgeo.mpm.core.opening import confine
 from mpmgeo.mpm.core.point import (
@@ -103,8 +104,9 @@ def _moved(work, x, v, value, p):
 @inlined
 def _strained(work, law, here, value, sx, sy, sz, material, p):
     if law is not None:
-        V, stress, m, state, total, account, pressure = material
+        V, stress, m, state, total, account, pressure, domain = material
         confine(law, here.mesh, here.x, lane(value, 6), m, V, state, p)
+        deform(domain, here.mesh, sx, sy, sz, work.dt, p)
         strain = strain_increment(here.mesh, sx, sy, sz, work.dt)
         spin = spin_increment(here.mesh, sx, sy, sz, work.dt)
         turn, dt = work.rotation, work.dt

@@ -1,0 +1,76 @@
+"""The domain of a particle: the box for which it stands in interpolation, as its material deforms.
+
+A box with the half edges l₀ deforms into a parallelepiped, whose places have the second moments
+
+    B = F diag(l₀²) Fᵀ,    B ← A B Aᵀ,    A = I + L Δt
+
+about its middle, but for a factor of three. The domain is the box along the axes that has the same
+ones: its half edges are lₐ = √Bₐₐ. A stretch along an axis changes that edge alone, a turn by a
+right angle exchanges edges, and no turn changes a cube, for A is then orthogonal.
+
+Source: Bardenhagen and Kober (2004), CMES 5(6), 477–496, for domains that deform;
+Coombs et al. (2020), CMAME 358, 112622, for stretches in place of Fₐₐ, which vanishes in a quarter
+turn. Second moments, which are stretches of the left side and need no roots of tensors, are ours.
+"""
+
+from math import sqrt
+
+from mpmgeo.materials.rotation import times_row
+from mpmgeo.numerics.chunks import blockwise
+from mpmgeo.numerics.jit import inlined
+from mpmgeo.numerics.simd import lane
+
+MOST = 0.5
+"""Half-size in cells from which on shapes see no larger one."""
+
+LARGE = (1.05 * MOST) ** 2
+"""Second moment [cells²] of a particle that is larger than a cell, by more than it may swing."""
+
+
+@inlined
+def deform(domain, mesh, sx, sy, sz, dt, p):
+    """Let the domain of particle p follow the slopes per cell of the node records; None: none.
+
+    `domain`: second moments (n, 6) [cells²].
+    """
+    if domain is not None:
+        x, y, z = mesh.ix * dt, mesh.iy * dt, mesh.iz * dt
+        B = (domain[p, 0], domain[p, 1], domain[p, 2], domain[p, 3], domain[p, 4], domain[p, 5])
+        new = moments(
+            B,
+            (1.0 + x * lane(sx, 0), x * lane(sy, 0), x * lane(sz, 0)),
+            (y * lane(sx, 1), 1.0 + y * lane(sy, 1), y * lane(sz, 1)),
+            (z * lane(sx, 2), z * lane(sy, 2), 1.0 + z * lane(sz, 2)),
+        )
+        for a in range(6):
+            domain[p, a] = new[a]
+
+
+@inlined
+def moments(B, x, y, z):
+    """Return A B Aᵀ for the rows x, y, z of A; symmetric tensors are xx yy zz xy yz xz."""
+    X = times_row(B, x[0], x[1], x[2])
+    Y = times_row(B, y[0], y[1], y[2])
+    Z = times_row(B, z[0], z[1], z[2])
+    return (
+        X[0] * x[0] + X[1] * x[1] + X[2] * x[2],
+        Y[0] * y[0] + Y[1] * y[1] + Y[2] * y[2],
+        Z[0] * z[0] + Z[1] * z[1] + Z[2] * z[2],
+        X[0] * y[0] + X[1] * y[1] + X[2] * y[2],
+        Y[0] * z[0] + Y[1] * z[1] + Y[2] * z[2],
+        X[0] * z[0] + X[1] * z[1] + X[2] * z[2],
+    )
+
+
+@blockwise
+def resize(c, chunk, start, domain, least, half):
+    """Give particles the half-sizes of their domains; return how many are `LARGE`.
+
+    `domain`: second moments (n, 6) [cells²], `half` (n, 3) [cells], not below the triple `least`.
+    """
+    large = 0
+    for p in range(start[chunk[c]], start[chunk[c + 1]]):
+        for a in range(3):
+            half[p, a] = min(max(sqrt(domain[p, a]), least[a]), MOST)
+        large += max(domain[p, 0], domain[p, 1], domain[p, 2]) > LARGE
+    return large
