@@ -4,7 +4,7 @@ On a Cartesian grid a shape function is the product of three 1D functions, each 
 A shape is a NamedTuple with that class attribute and one `stencil` registered for its type; its
 class attribute `edge` is the power with which the weight vanishes at the edge of the support. With
 the class attribute `cuts = True` it ends at walls, and its stencil is told how it is cut; with
-`sized = True` it depends on the size of particles.
+`sized = True` it depends on the size of particles, and has `ends`, too.
 """
 
 from numba.core import types
@@ -25,6 +25,14 @@ def stencil(shape, s, l, cut):
     nodes lie beyond a wall, along each axis, for shapes that end there; None for the others. Nodes
     beyond have the weight zero; those at and before the wall sum to one and are linear up to it.
     Slopes are per cell.
+    """
+
+
+@generic
+def ends(shape, s, l):
+    """Return the S weights of the mean of a linear field at the ends s ± l of a particle.
+
+    For shapes that depend on the size of particles; s and l as in `stencil`.
     """
 
 

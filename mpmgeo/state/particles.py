@@ -80,15 +80,14 @@ class ParticleSet:
 
     @property
     def material(self):
-        """Return what an update needs: V, stress, m, state, strain, work, pressure, domain.
+        """Return what an update needs: V, stress, m, state, strain, work, pressure.
 
         The masses only where they bound what tension opens, that is for `GRAINS`, the pressure
         where it works on what opens, and the work is kept.
         """
         m = self.m if getattr(self.law, "GRAINS", False) else None
         pressure = self.pressure if self.work is not None and opens_under_pressure(self) else None
-        kept = self.strain, self.work, pressure, self.domain
-        return self.V, self.stress, m, self.state, *kept
+        return self.V, self.stress, m, self.state, self.strain, self.work, pressure
 
     def volume(self, at=slice(None)):
         """Return the volumes [m³] of the particles `at`, with what tension has opened."""

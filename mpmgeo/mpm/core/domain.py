@@ -8,17 +8,30 @@ about its middle, but for a factor of three. The domain is the box along the axe
 ones: its half edges are lₐ = √Bₐₐ. A stretch along an axis changes that edge alone, a turn by a
 right angle exchanges edges, and no turn changes a cube, for A is then orthogonal.
 
-Source: Bardenhagen and Kober (2004), CMES 5(6), 477–496, for domains that deform;
-Coombs et al. (2020), CMAME 358, 112622, for stretches in place of Fₐₐ, which vanishes in a quarter
-turn. Second moments, which are stretches of the left side and need no roots of tensors, are ours.
+Domains that follow touch each other as long as their middles do, too. The mean velocity *in* a
+domain is not that of its middle where the velocity has a kink at a node: gaps and overlaps would
+grow there, and where the material is in tension they drive themselves. So particles move with the
+mean velocity of the *corners*,
+
+    x ← x + Δt ⅛ Σ_c N(x_c) v,    N the hats of the nodes,
+
+by the same nodal velocities that L is of.
+
+Source: Bardenhagen and Kober (2004), CMES 5(6), 477–496, for domains that deform; Coombs et al.
+(2020), CMAME 358, 112622, for stretches in place of Fₐₐ, which vanishes in a quarter turn;
+Sadeghirad, Brannon and Burghardt (2011), Int. J. Numer. Meth. Engng 86, 1435–1456, for fields at
+corners. Second moments, which need no roots of tensors, and places that follow corners are ours.
 """
 
 from math import sqrt
 
 from mpmgeo.materials.rotation import times_row
+from mpmgeo.mpm.core.tile import collect_value, half_size, in_block
 from mpmgeo.numerics.chunks import blockwise
 from mpmgeo.numerics.jit import inlined
-from mpmgeo.numerics.simd import lane
+from mpmgeo.numerics.simd import along, axpy, lane, load_row, quarter, truncate
+from mpmgeo.shapes.shape import ends, width
+from mpmgeo.state.layout import SIDE
 
 MOST = 0.5
 """Half-size in cells from which on shapes see no larger one."""
@@ -29,9 +42,9 @@ LARGE = (1.05 * MOST) ** 2
 
 @inlined
 def deform(domain, mesh, sx, sy, sz, dt, p):
-    """Let the domain of particle p follow the slopes per cell of the node records; None: none.
+    """Let the domain of particle p follow the slopes per cell of the node records.
 
-    `domain`: second moments (n, 6) [cells²].
+    `domain`: second moments (n, 6) [cells²], or None.
     """
     if domain is not None:
         x, y, z = mesh.ix * dt, mesh.iy * dt, mesh.iz * dt
@@ -60,6 +73,24 @@ def moments(B, x, y, z):
         Y[0] * z[0] + Y[1] * z[1] + Y[2] * z[2],
         X[0] * z[0] + X[1] * z[1] + X[2] * z[2],
     )
+
+
+@inlined
+def moved_with_corners(domain, dt, here, n, X, p):
+    """Return where the corners of its domain move particle p, X for a domain that is None.
+
+    `n`: where the records of its nodes begin.
+    """
+    if domain is None:
+        return X
+    S = width(here.shape)
+    old = load_row(here.x, p)
+    g = in_block(here.mesh, here.origin, old)
+    first = min(max(truncate(g - 0.5 * (S - 2)), 0.0), SIDE - 1.0)
+    w = ends(here.shape, g - first - 0.5 * (S - 1), half_size(here.half, p))
+    w = w + w  # sums of values skip the slopes behind the weights
+    value = collect_value(here.source, n, here.rows, along(w, 0), along(w, 1), along(w, 2))
+    return axpy(dt, quarter(value, 0), old)
 
 
 @blockwise

@@ -101,7 +101,7 @@ def advance(law, rotation, strain, spin, V, stress, state, total, work, pressure
     """Update volume, stress and the law's variables of particle p for a strain increment.
 
     `rotation` None, or the objective rate by which the old stress follows the spin increment;
-    the arrays are those of `ParticleSet.material`; those after `state` are None if not kept.
+    the arrays are those of `ParticleSet.material`, the last three None where they are not kept.
     """
     stretch = 1.0 + (strain[0] + strain[1] + strain[2])
     V[p] *= stretch

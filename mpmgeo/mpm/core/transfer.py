@@ -6,7 +6,7 @@ part of m that touches the ground.
 
 from typing import NamedTuple
 
-from mpmgeo.mpm.core.domain import deform
+from mpmgeo.mpm.core.domain import deform, moved_with_corners
 from mpmgeo.mpm.core.loops import visit
 from mpmgeo.mpm.core.opening import confine
 from mpmgeo.mpm.core.point import (
@@ -70,8 +70,9 @@ class Gather(NamedTuple):
     """Move the particles with the nodes and update their stress; tells who left its block.
 
     Velocities change by h times the acceleration. With v None they stay, and positions follow the
-    velocity that `Velocity` kept. With `law` None volume and stress stay. Arrays: v, those of
-    `ParticleSet.material`.
+    velocity that `Velocity` kept. With `law` None volume and stress stay. Domains follow the nodes
+    as they are, and positions with them. Arrays: v, those of `ParticleSet.material`, domains or
+    None.
     """
 
     law: object
@@ -82,11 +83,12 @@ class Gather(NamedTuple):
 
 @visit.register(Gather)
 def gather(work, here, a, p):
-    v, material = a
+    v, material, domain = a
     n, wx, wy, wz = locate(here, p)
     value, sx, sy, sz = collect(here.source, n, here.rows, wx, wy, wz)
     _strained(work, work.law, here, value, sx, sy, sz, material, p)
-    X = _moved(work, here.x, v, value, p)
+    deform(domain, here.mesh, sx, sy, sz, work.dt, p)
+    X = moved_with_corners(domain, work.dt, here, n, _moved(work, here.x, v, value, p), p)
     store_row(here.x, p, X)
     return 0 if within(in_block(here.mesh, here.origin, X), here.low, here.high) else 1
 
@@ -104,9 +106,8 @@ def _moved(work, x, v, value, p):
 @inlined
 def _strained(work, law, here, value, sx, sy, sz, material, p):
     if law is not None:
-        V, stress, m, state, total, account, pressure, domain = material
+        V, stress, m, state, total, account, pressure = material
         confine(law, here.mesh, here.x, lane(value, 6), m, V, state, p)
-        deform(domain, here.mesh, sx, sy, sz, work.dt, p)
         strain = strain_increment(here.mesh, sx, sy, sz, work.dt)
         spin = spin_increment(here.mesh, sx, sy, sz, work.dt)
         turn, dt = work.rotation, work.dt
