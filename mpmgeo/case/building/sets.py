@@ -11,6 +11,7 @@ from mpmgeo.state.particles import ParticleSet
 from mpmgeo.state.stress_file import NAME as STRESS_FILE
 from mpmgeo.state.stress_file import read_stress
 
+FLOOR = 0.5  # part of the smallest half-size in a set below which none of its particles shrinks
 HALF = 0.5  # cells: the largest half-size for which the shapes sum to one
 
 
@@ -45,6 +46,7 @@ def particle_sets(case, population, velocity, laws, tool, contact, notes):
                 due=np.zeros(len(rows)) if touches else None,
                 contact=np.zeros((len(rows), contact.columns)) if touches else None,
                 domain=np.hstack([half**2, np.zeros_like(half)]) if follows else None,
+                least=tuple((FLOOR * half.min(axis=0)).tolist()) if follows else None,
                 tool=int(number) if number >= 0 else None,
             )
         )

@@ -26,28 +26,25 @@ corners. Second moments, which need no roots of tensors, and places that follow 
 from math import sqrt
 
 from mpmgeo.materials.rotation import times_row
-from mpmgeo.mpm.core.tile import collect_value, half_size, in_block
-from mpmgeo.numerics.chunks import blockwise
+from mpmgeo.mpm.core.tile import half_size, in_block
 from mpmgeo.numerics.jit import inlined
-from mpmgeo.numerics.simd import along, axpy, lane, load_row, quarter, truncate
+from mpmgeo.numerics.simd import LANES, along, axpy, lane, load, load_row, pack4, quarter, truncate
 from mpmgeo.shapes.shape import ends, width
-from mpmgeo.state.layout import SIDE
+from mpmgeo.state.layout import SIDE, place
 
 MOST = 0.5
 """Half-size in cells from which on shapes see no larger one."""
 
-LARGE = (1.05 * MOST) ** 2
-"""Second moment [cells²] of a particle that is larger than a cell, by more than it may swing."""
-
 
 @inlined
-def deform(domain, mesh, sx, sy, sz, dt, p):
-    """Let the domain of particle p follow the slopes per cell of the node records.
+def deform(follower, here, sx, sy, sz, dt, p):
+    """Let domain and half-sizes of particle p follow the slopes per cell of the node records.
 
-    `domain`: second moments (n, 6) [cells²], or None.
+    `follower`: that of `ParticleSet`, or None.
     """
-    if domain is not None:
-        x, y, z = mesh.ix * dt, mesh.iy * dt, mesh.iz * dt
+    if follower is not None:
+        domain, least = follower
+        x, y, z = here.mesh.ix * dt, here.mesh.iy * dt, here.mesh.iz * dt
         B = (domain[p, 0], domain[p, 1], domain[p, 2], domain[p, 3], domain[p, 4], domain[p, 5])
         new = moments(
             B,
@@ -57,6 +54,8 @@ def deform(domain, mesh, sx, sy, sz, dt, p):
         )
         for a in range(6):
             domain[p, a] = new[a]
+        for a in range(3):
+            here.half[p, a] = min(max(sqrt(new[a]), least[a]), MOST)
 
 
 @inlined
@@ -76,32 +75,29 @@ def moments(B, x, y, z):
 
 
 @inlined
-def moved_with_corners(domain, dt, here, n, X, p):
-    """Return where the corners of its domain move particle p, X for a domain that is None.
+def moved_with_corners(follower, dt, here, n, X, p):
+    """Return where the corners of its domain move particle p, X if `follower` is None.
 
     `n`: where the records of its nodes begin.
     """
-    if domain is None:
+    if follower is None:
         return X
     S = width(here.shape)
     old = load_row(here.x, p)
     g = in_block(here.mesh, here.origin, old)
     first = min(max(truncate(g - 0.5 * (S - 2)), 0.0), SIDE - 1.0)
     w = ends(here.shape, g - first - 0.5 * (S - 1), half_size(here.half, p))
-    w = w + w  # sums of values skip the slopes behind the weights
-    value = collect_value(here.source, n, here.rows, along(w, 0), along(w, 1), along(w, 2))
-    return axpy(dt, quarter(value, 0), old)
+    return axpy(dt, _mean(here, n, along(w, 0), along(w, 1), along(w, 2)), old)
 
 
-@blockwise
-def resize(c, chunk, start, domain, least, half):
-    """Give particles the half-sizes of their domains; return how many are `LARGE`.
-
-    `domain`: second moments (n, 6) [cells²], `half` (n, 3) [cells], not below the triple `least`.
-    """
-    large = 0
-    for p in range(start[chunk[c]], start[chunk[c + 1]]):
-        for a in range(3):
-            half[p, a] = min(max(sqrt(domain[p, a]), least[a]), MOST)
-        large += max(domain[p, 0], domain[p, 1], domain[p, 2]) > LARGE
-    return large
+@inlined
+def _mean(here, n0, wx, wy, wz):
+    """Return the sum of the nodal velocities, times weights, of the records from n0 on."""
+    mean = pack4(0.0, 0.0, 0.0, 0.0)
+    for i in range(len(wx)):
+        for j in range(len(wy)):
+            n, row = n0 + place(here.rows, i, j, 0) * LANES, pack4(0.0, 0.0, 0.0, 0.0)
+            for k in range(len(wz)):
+                row = axpy(wz[k], quarter(load(here.source, n + k * LANES), 0), row)
+            mean = axpy(wx[i] * wy[j], row, mean)
+    return mean

@@ -71,8 +71,8 @@ class Gather(NamedTuple):
 
     Velocities change by h times the acceleration. With v None they stay, and positions follow the
     velocity that `Velocity` kept. With `law` None volume and stress stay. Domains follow the nodes
-    as they are, and positions with them. Arrays: v, those of `ParticleSet.material`, domains or
-    None.
+    as they are, and positions with them. Arrays: v, those of `ParticleSet.material` and of its
+    `follower`.
     """
 
     law: object
@@ -83,12 +83,13 @@ class Gather(NamedTuple):
 
 @visit.register(Gather)
 def gather(work, here, a, p):
-    v, material, domain = a
+    v, material, follower = a
     n, wx, wy, wz = locate(here, p)
     value, sx, sy, sz = collect(here.source, n, here.rows, wx, wy, wz)
     _strained(work, work.law, here, value, sx, sy, sz, material, p)
-    deform(domain, here.mesh, sx, sy, sz, work.dt, p)
-    X = moved_with_corners(domain, work.dt, here, n, _moved(work, here.x, v, value, p), p)
+    X = _moved(work, here.x, v, value, p)
+    X = moved_with_corners(follower, work.dt, here, n, X, p)
+    deform(follower, here, sx, sy, sz, work.dt, p)
     store_row(here.x, p, X)
     return 0 if within(in_block(here.mesh, here.origin, X), here.low, here.high) else 1
 

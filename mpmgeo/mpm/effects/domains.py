@@ -1,61 +1,47 @@
-"""Particles whose size in interpolation follows their material, from step to step.
-
-Weights are those of the start of the step throughout, so that the momentum that a particle puts
-into the nodes comes back to it: sizes change between steps.
-
-What is compressed along an axis shrinks to a part of its first size and no further. Small domains
-make steps short, and those that overlap do no harm.
-"""
+"""Tells when particles whose size follows their material have grown beyond a cell."""
 
 import numpy as np
 
 from mpmgeo.effect import Effect
-from mpmgeo.mpm.core.domain import LARGE, resize
+from mpmgeo.mpm.core.domain import MOST
 from mpmgeo.positions import shown
 
-FLOOR = 0.5
-"""Part of the smallest size of a material's particles below which none of them shrinks."""
+LARGE = (1.05 * MOST) ** 2
+"""Second moment [cells²] of a particle that is larger than a cell, by more than it may swing."""
+
+EVERY = 50
+"""Steps between two looks at all particles."""
 
 
 class Domains(Effect):
-    """Makes half-sizes of the second moments of domains; after the effects that need the old ones.
-
-    Particles that grow beyond a cell are told of once.
-    """
+    """Looks for a particle that is larger than a cell, and tells of the first one once."""
 
     name = "domains"
     does_work = False
 
     def join(self, solver):
-        """Note how small particles may become."""
-        self.least = [tuple((FLOOR * s.half.min(axis=0)).tolist()) for s in solver.sets]
-        self.large = False
+        """Nothing has been seen yet."""
+        self.first = None
 
     def end(self, solver):
-        """Give the particles their new sizes."""
-        large = 0
-        for s, least in zip(solver.sets, self.least, strict=True):
-            large += resize(solver.crew, s.chunk, s.start, s.domain, least, s.half)
-        self.large = large > 0
-        solver.clock.lap("domains")
+        """Look for the particle of the lowest row among those that are too large."""
+        if self.first is None and solver.steps % EVERY == 0:
+            large = [
+                (int(s.row[p]), s.x[p].copy(), solver.time)
+                for s in solver.sets
+                for p in np.flatnonzero((s.domain[: s.active, :3] > LARGE).any(axis=1))
+            ]
+            self.first = min(large, key=lambda entry: entry[0], default=None)
 
     def news(self, solver):
         """Yield which particle is larger than a cell, if there is one."""
-        if self.large:
-            yield "domains", lambda: self._first(solver)
+        if self.first is not None:
+            yield "domains", lambda: [self._message(solver.population.zero)]
 
-    def _first(self, solver):
-        """Return what to tell of the first such particle, a list of messages."""
-        found = []
-        for s in solver.sets:
-            large = np.flatnonzero(s.domain[: s.active, :3].max(axis=1) > LARGE)
-            if len(large):
-                p = large[s.row[large].argmin()]
-                found.append((int(s.row[p]), s.x[p]))
-        row, x = min(found, key=lambda entry: entry[0])
-        where = shown(x, solver.population.zero, digits=4)
-        return [
-            f"particles are stretched to more than a cell, the first is particle {row}, at {where} "
-            f"after {solver.time:.6g} s: they interpolate as if they were one cell large, and "
-            "bodies may tear where gaps open between them"
-        ]
+    def _message(self, zero):
+        row, x, time = self.first
+        return (
+            f"particles are stretched to more than a cell, the first is particle {row}, at "
+            f"{shown(x, zero, digits=4)} after {time:.6g} s: they interpolate as if they were one "
+            "cell large, and bodies may tear where gaps open between them"
+        )
