@@ -30,15 +30,14 @@ def interpolated(box, U, g, c):
 
 
 @compiled
-def follow(shape, box, rows, half, x, domain, U, dt):
-    """Move particles with their corners and deform their domains (n, 3, 3) [cells²]."""
+def follow(shape, box, rows, half, x, A, U, dt):
+    """Move particles with their corners; add Δt L, in cells, to their A (n, 3, 3)."""
     S = width(shape)
-    A, way = np.empty((3, 3)), np.empty(3)
+    way = np.empty(3)
     for p in rows:
         I, wx = stencil_along(0, shape, box, half, x, p)
         J, wy = stencil_along(1, shape, box, half, x, p)
         K, wz = stencil_along(2, shape, box, half, x, p)
-        A[:] = np.eye(3)
         for i in range(S):
             for j in range(S):
                 for k in range(S):
@@ -46,7 +45,7 @@ def follow(shape, box, rows, half, x, domain, U, dt):
                     for a in range(3):
                         for b in range(3):
                             u = U[I + i, J + j, K + k, a] / box.cell[a]
-                            A[a, b] += dt * u * G[b] * box.cell[b]
+                            A[p, a, b] += dt * u * G[b] * box.cell[b]
         way[:] = 0.0
         g = x[p, 0] / box.cell[0], x[p, 1] / box.cell[1], x[p, 2] / box.cell[2]
         for a in (-1.0, 1.0):
@@ -57,7 +56,6 @@ def follow(shape, box, rows, half, x, domain, U, dt):
                         way[c] += 0.125 * dt * interpolated(box, U, at, c)
         for c in range(3):
             x[p, c] += way[c]
-        domain[p] = A @ domain[p] @ A.T
 
 
 class FollowingSolver(PlainSolver):
@@ -81,8 +79,7 @@ class FollowingSolver(PlainSolver):
     def _gather(self, h, A, drift, strains=False):
         super()._gather(h, A, None, strains)
         if strains:
+            A = np.tile(np.eye(3), (len(self.x), 1, 1))
             for *_, rows in self.sets:
-                follow(
-                    *(self.shape, self.box, rows, self.half, self.x, self.domain),
-                    *(self.U, self.time_step),
-                )
+                follow(self.shape, self.box, rows, self.half, self.x, A, self.U, self.time_step)
+            self.domain = A @ self.domain @ A.transpose(0, 2, 1)

@@ -125,6 +125,15 @@ def test_consolidation_with_musl():
     assert (fine[:, 1] < coarse[:, 1]).all()
 
 
+@pytest.mark.parametrize("scheme", ["USL", "MUSL"])
+def test_consolidation_with_sizes_that_follow(scheme):
+    """Strains are small here: nothing changes by more than they are."""
+    keys = {"stress_scheme_update": scheme, "damping": {"type": "local", "value": 0.1}}
+    assert errors(5, particle_domain="updated", **keys) == pytest.approx(
+        errors(5, **keys), abs=1e-3
+    )
+
+
 @pytest.mark.parametrize("bulk", [2e7, 5e7, 5e8])
 def test_undrained_start(bulk):
     """A sudden load, nearly no drainage: the pressure is p₀ when the waves have died down."""

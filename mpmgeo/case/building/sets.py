@@ -66,8 +66,7 @@ def load_stress(case, sets, count):
 
 
 def _half_sizes(half, follows, notes):
-    """Return half-sizes in cells as one triple if all particles share it for ever, else a row each.
-    """
+    """Return half-sizes in cells as one triple if all particles keep the same, else a row each."""
     if (half > HALF * (1 + 1e-9)).any():
         notes.append("particles larger than a cell interpolate as if they were one cell large")
     half = np.minimum(half, HALF)

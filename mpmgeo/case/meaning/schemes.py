@@ -43,6 +43,8 @@ def _check_domain(draft, report):
     if case.get("stress_scheme_update") == "USF":
         report.error(path, FIRST_MOVES)
     if TerrainContact.key in draft.whole.given:
-        report.error(path, 'contact with a terrain is for particles that keep their size: "initial"')
+        report.error(
+            path, 'contact with a terrain is for particles that keep their size: "initial"'
+        )
     if case.get("compatibility") is not None:
         report.error(path, 'MPM-Geomechanics keeps the sizes of particles; accepted: "initial"')

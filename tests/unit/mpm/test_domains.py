@@ -82,24 +82,30 @@ def test_agrees_with_the_plain_twin(scheme, small):
 def cube(**keys):
     """A cube of 27 cells in free space, whose particles can be given any velocity."""
     free = {f"plane_{plane}": "free" for plane in ("X0", "Xn", "Y0", "Yn", "Z0", "Zn")}
-    return {
-        "time": 1.0,
-        "time_step": 1e-4,
-        "mesh": {
-            "cells_number": [9, 9, 9],
-            "cells_dimension": [0.1, 0.2, 0.1],
-            "boundary_conditions": free,
-        },
-        "materials": [{"type": "elastic", "id": 1, "density": 1e3, "young": 1e3, "poisson": 0.0}],
-        "body": [
-            {
-                "type": "cuboid",
-                "point_p1": [0.3, 0.6, 0.3],
-                "point_p2": [0.6, 1.2, 0.6],
-                "material_id": 1,
-            }
-        ],
-    } | DOMAIN | keys
+    return (
+        {
+            "time": 1.0,
+            "time_step": 1e-4,
+            "mesh": {
+                "cells_number": [9, 9, 9],
+                "cells_dimension": [0.1, 0.2, 0.1],
+                "boundary_conditions": free,
+            },
+            "materials": [
+                {"type": "elastic", "id": 1, "density": 1e3, "young": 1e3, "poisson": 0.0}
+            ],
+            "body": [
+                {
+                    "type": "cuboid",
+                    "point_p1": [0.3, 0.6, 0.3],
+                    "point_p2": [0.6, 1.2, 0.6],
+                    "material_id": 1,
+                }
+            ],
+        }
+        | DOMAIN
+        | keys
+    )
 
 
 def test_flight_leaves_sizes_and_places():
