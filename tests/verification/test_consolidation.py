@@ -127,11 +127,11 @@ def test_consolidation_with_musl():
 
 @pytest.mark.parametrize("scheme", ["USL", "MUSL"])
 def test_consolidation_with_sizes_that_follow(scheme):
-    """Strains are small here: nothing changes by more than they are."""
+    """U within 1.5 %, the profile within 2 %: strains are small, so sizes hardly matter."""
     keys = {"stress_scheme_update": scheme, "damping": {"type": "local", "value": 0.1}}
-    assert errors(5, particle_domain="updated", **keys) == pytest.approx(
-        errors(5, **keys), abs=1e-3
-    )
+    found = errors(5, particle_domain="updated", **keys)
+    assert np.abs(found[:, 0]).max() < 0.015
+    assert found[:, 1].max() < 0.02
 
 
 @pytest.mark.parametrize("bulk", [2e7, 5e7, 5e8])
