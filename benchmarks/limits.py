@@ -3,6 +3,7 @@
 python benchmarks/limits.py [layers] [bar] [spin] [linear] [flight]
 """
 
+import itertools
 import sys
 import warnings
 
@@ -34,11 +35,20 @@ def bar():
     for count in (1, 2, 3):
         for scheme, shape in (("USL", "GIMP"), ("MUSL", "GIMP"), ("MUSL", "linear")):
             simulation = mpmgeo.Simulation(limits.bar(count, **keys(scheme, shape)))
-            shares = []
-            for strain in (0.04, 0.08, 0.15, 0.2, 0.3, 0.5, 0.7):
-                share = limits.share_of_stress(simulation.run(until=strain / 0.2))
-                shares.append(f"{share:.2f} at {strain:g}")
-            print(f"{scheme} {shape}, {count} a cell: {', '.join(shares)}", flush=True)
+            _draw(simulation, (0.04, 0.08, 0.15, 0.2, 0.3, 0.5, 0.7), f"{shape}, {count} a cell")
+    for domain, schemes in (("initial", SCHEMES), ("updated", ("USL", "MUSL"))):
+        for scheme, count in itertools.product(schemes, (2, 3)):
+            more = {"stress_scheme_update": scheme, "particle_domain": domain, "time": 6}
+            simulation = mpmgeo.Simulation(limits.bar(count, **more))
+            _draw(simulation, (0.2, 0.4, 0.6, 0.8, 1.0), f"{domain}, {count} a cell")
+
+
+def _draw(simulation, strains, name):
+    shares = []
+    for strain in strains:
+        share = limits.share_of_stress(simulation.run(until=strain / 0.2))
+        shares.append(f"{share:.3f} at {strain:g}")
+    print(f"{simulation.case.stress_scheme_update} {name}: {', '.join(shares)}", flush=True)
 
 
 def spin():

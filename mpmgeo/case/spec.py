@@ -211,6 +211,11 @@ class Settings:
         "The numbers of the schemes NPC and NPC-CD", default=NewmarkNumbers()
     )
     lme: LocalMaxEnt = parameter("The numbers of the shape LME", default=LocalMaxEnt())
+    particle_domain: str = parameter(
+        "Size of particles in interpolation: as at the start, or following their deformation",
+        choices=("initial", "updated"),
+        default="initial",
+    )
     n_phases: int = parameter(
         "Number of phases: the solid alone, or with a fluid in its pores",
         choices=(1, 2),

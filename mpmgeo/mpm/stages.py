@@ -88,7 +88,7 @@ class Stages(Loops):
         nodes, step = self.grid.nodes, 0.0 if h is None else h
         for s in self.sets:
             work = Gather(s.law if stress else None, s.rotation, self.time_step, step)
-            arrays = (None if h is None else s.v, s.material)
+            arrays = (None if h is None else s.v, s.material, s.follower)
             self.gone += self.over_particles(work, s, arrays, None, nodes)
         self.clock.lap("gather")
         for act in self.asked["after_gather"]:

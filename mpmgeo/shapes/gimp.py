@@ -8,12 +8,13 @@ by partition of unity. Holds for l ≤ ½ cell.
 
 from typing import NamedTuple
 
-from mpmgeo.shapes.shape import stencil
+from mpmgeo.shapes.shape import ends, stencil
 
 
 class Gimp(NamedTuple):
     width = 3
     edge = 2
+    sized = True
 
 
 @stencil.register(Gimp)
@@ -24,3 +25,10 @@ def gimp(shape, s, l, cut):
     left = a * a * k + max(-s - l, 0.0)
     right = b * b * k + max(s - l, 0.0)
     return left, 1.0 - left - right, right, -2.0 * a * k, 2.0 * (a - b) * k, 2.0 * b * k
+
+
+@ends.register(Gimp)
+def ends_of_particle(shape, s, l):
+    left = 0.5 * (max(l - s, 0.0) + max(-s - l, 0.0))
+    right = 0.5 * (max(l + s, 0.0) + max(s - l, 0.0))
+    return left, 1.0 - left - right, right

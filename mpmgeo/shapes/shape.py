@@ -3,7 +3,8 @@
 On a Cartesian grid a shape function is the product of three 1D functions, each `width` nodes wide.
 A shape is a NamedTuple with that class attribute and one `stencil` registered for its type; its
 class attribute `edge` is the power with which the weight vanishes at the edge of the support. With
-the class attribute `cuts = True` it ends at walls, and its stencil is told how it is cut.
+the class attribute `cuts = True` it ends at walls, and its stencil is told how it is cut; with
+`sized = True` it depends on the size of particles, and has `ends`, too.
 """
 
 from numba.core import types
@@ -27,6 +28,14 @@ def stencil(shape, s, l, cut):
     """
 
 
+@generic
+def ends(shape, s, l):
+    """Return the S weights of the mean of a linear field at the ends s ± l of a particle.
+
+    For shapes that depend on the size of particles; s and l as in `stencil`.
+    """
+
+
 def width(shape):
     """Return S, the number of nodes that the shape reaches along an axis."""
     return type(shape).width
@@ -41,6 +50,11 @@ def _width(shape):
 def cuts(shape):
     """Tell whether the shape, or numba's type of it, ends at walls."""
     return getattr(getattr(shape, "instance_class", type(shape)), "cuts", False)
+
+
+def is_sized(shape):
+    """Tell whether the shape depends on the size of particles."""
+    return getattr(type(shape), "sized", False)
 
 
 def cut_of(shape, walls, first):

@@ -16,7 +16,7 @@ from mpmgeo.state.grid import cut
 ARRAYS = (
     *("row", "x", "v", "m", "V", "stress", "half", "force", "state", "pressure", "strain", "work"),
     *("a", "mf", "vf", "pf", "free", "pull"),
-    *("due", "contact"),
+    *("due", "contact", "domain"),
 )
 """Fields of a set that are arrays, if they are there, with a row for each particle."""
 
@@ -63,6 +63,8 @@ class ParticleSet:
     a: np.ndarray | None = None  # (n, 3) acceleration in the last step [m/s²]
     due: np.ndarray | None = None  # (n,) when to look for contact, see `mpm.touch`; −1 in contact
     contact: np.ndarray | None = None  # (n, …) forces and shift of contact, see `mpm.terrain`
+    domain: np.ndarray | None = None  # (n, 6) second moments of domains, see `mpm.core.domain`
+    least: tuple | None = None  # half-sizes in cells below which domains do not shrink
     tool: int | None = None  # number of the prescribed velocity that the particles have
     fluid: object = None  # symbols of the pore fluid; with it m is the solid's mass
     mf: np.ndarray | None = None  # (n,) mass of the fluid [kg]
@@ -88,6 +90,11 @@ class ParticleSet:
         m = self.m if getattr(self.law, "GRAINS", False) else None
         pressure = self.pressure if self.work is not None and opens_under_pressure(self) else None
         return self.V, self.stress, m, self.state, self.strain, self.work, pressure
+
+    @property
+    def follower(self):
+        """Return what lets half-sizes follow the material, None if they stay: domain, least."""
+        return None if self.domain is None else (self.domain, self.least)
 
     def volume(self, at=slice(None)):
         """Return the volumes [m³] of the particles `at`, with what tension has opened."""

@@ -199,8 +199,11 @@ class PlainSolver:
     point loads, prescribed velocities and damping other than local.
     """
 
+    EFFECTS = ()  # names of those that it knows
+
     def __init__(self, solver):
-        if solver.effects or solver.early_damping or len(solver.damping) > 1:
+        others = [effect for effect in solver.effects if effect.name not in self.EFFECTS]
+        if others or solver.early_damping or len(solver.damping) > 1:
             raise ValueError("the plain solver has gravity, box loads and local damping only")
         self.shape, self.time_step, self.steps = solver.shape, solver.time_step, solver.steps
         self.local = solver.damping[0].α if solver.damping else None

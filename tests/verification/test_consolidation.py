@@ -125,6 +125,15 @@ def test_consolidation_with_musl():
     assert (fine[:, 1] < coarse[:, 1]).all()
 
 
+@pytest.mark.parametrize("scheme", ["USL", "MUSL"])
+def test_consolidation_with_sizes_that_follow(scheme):
+    """U within 1.5 %, the profile within 2 %: strains are small, so sizes hardly matter."""
+    keys = {"stress_scheme_update": scheme, "damping": {"type": "local", "value": 0.1}}
+    found = errors(5, particle_domain="updated", **keys)
+    assert np.abs(found[:, 0]).max() < 0.015
+    assert found[:, 1].max() < 0.02
+
+
 @pytest.mark.parametrize("bulk", [2e7, 5e7, 5e8])
 def test_undrained_start(bulk):
     """A sudden load, nearly no drainage: the pressure is p₀ when the waves have died down."""

@@ -34,6 +34,17 @@ def test_tearing():
     assert share_of_stress(2, 0.2, **GIMP | {"stress_scheme_update": "MUSL"}) < 0.6
 
 
+@pytest.mark.parametrize("scheme", ["USL", "MUSL"])
+def test_sizes_that_follow_do_not_tear(scheme):
+    """At 20 and 80 % strain, where sizes that stay carry 0.36 of it in MUSL, and nothing."""
+    keys = {"stress_scheme_update": scheme, "particle_domain": "updated"}
+    simulation = mpmgeo.Simulation(limits.bar(2, time=4.0, **keys))
+    for strain in (0.2, 0.8):
+        share = limits.share_of_stress(simulation.run(until=strain / 0.2))
+        assert share == pytest.approx(1.0, abs=0.03)
+    assert not [message for message in simulation.messages if "more than a cell" in message]
+
+
 @pytest.mark.parametrize("count, share", [(2, 0.50), (4, 0.84)])
 def test_spin(count, share):
     """After one turn."""

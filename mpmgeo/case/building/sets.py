@@ -11,6 +11,7 @@ from mpmgeo.state.particles import ParticleSet
 from mpmgeo.state.stress_file import NAME as STRESS_FILE
 from mpmgeo.state.stress_file import read_stress
 
+FLOOR = 0.5  # part of the smallest half-size in a set below which none of its particles shrinks
 HALF = 0.5  # cells: the largest half-size for which the shapes sum to one
 
 
@@ -19,11 +20,11 @@ def particle_sets(case, population, velocity, laws, tool, contact, notes):
     cell = np.array(case.mesh.cells_dimension)
     pressure = bind_pressure(case, population.position, notes)
     strained = not case.results.needed_fields.isdisjoint(WITH_STRAIN)
-    touches = contact is not None
+    touches, follows = contact is not None, case.particle_domain == "updated"
     sets = []
     for index, number in np.unique(np.column_stack([laws, tool]), axis=0):
         rows, law = np.flatnonzero((laws == index) & (tool == number)), case.materials[index]
-        volume = population.size[rows].prod(axis=1)
+        volume, half = population.size[rows].prod(axis=1), population.size[rows] / cell / 2
         symbols = law.symbols if case.compatibility is None else law.symbols_as_mpm_geomechanics
         variables = len(symbols.STATE)
         sets.append(
@@ -36,7 +37,7 @@ def particle_sets(case, population, velocity, laws, tool, contact, notes):
                 m=law.density * volume,
                 V=volume,
                 stress=np.zeros((len(rows), 6)),
-                half=_half_sizes(population.size[rows] / cell / 2, notes),
+                half=_half_sizes(half, follows, notes),
                 force=None if population.force is None else population.force[rows],
                 state=np.zeros((len(rows), variables)) if variables else None,
                 pressure=None if pressure is None else pressure[rows],
@@ -44,6 +45,8 @@ def particle_sets(case, population, velocity, laws, tool, contact, notes):
                 work=np.zeros((len(rows), 2)) if case.results.energy is not None else None,
                 due=np.zeros(len(rows)) if touches else None,
                 contact=np.zeros((len(rows), contact.columns)) if touches else None,
+                domain=np.hstack([half**2, np.zeros_like(half)]) if follows else None,
+                least=tuple((FLOOR * half.min(axis=0)).tolist()) if follows else None,
                 tool=int(number) if number >= 0 else None,
             )
         )
@@ -62,11 +65,11 @@ def load_stress(case, sets, count):
         s.stress[:] = stress[s.row]
 
 
-def _half_sizes(half, notes):
-    """Return half-sizes in cells as one triple if all particles share it, else a row each."""
+def _half_sizes(half, follows, notes):
+    """Return half-sizes in cells as one triple if all particles keep the same, else a row each."""
     if (half > HALF * (1 + 1e-9)).any():
         notes.append("particles larger than a cell interpolate as if they were one cell large")
     half = np.minimum(half, HALF)
-    if (np.ptp(half, axis=0) < 1e-12).all():
+    if not follows and (np.ptp(half, axis=0) < 1e-12).all():
         return tuple(float(l) for l in half[0])
     return np.ascontiguousarray(half)

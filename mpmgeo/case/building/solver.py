@@ -48,6 +48,7 @@ def build(case):
         *_of_loads(case, mesh),
         _reactions(case),
         *(_of_damping(kind, legacy) for kind in case.dampings),
+        _domains(case),
         _ledger(case),
         in_time(case, population.position),
     )
@@ -87,6 +88,15 @@ def _of_damping(kind, legacy):
 def _of_loads(case, mesh):
     """Return what the loads of a case do during a step."""
     return [load.effect(getattr(case, load.key), mesh) for load in LOADS if load.is_several]
+
+
+def _domains(case):
+    """Return what lets the sizes of particles follow their material, None if they stay."""
+    if case.particle_domain == "initial":
+        return None
+    from mpmgeo.mpm.effects.domains import Domains
+
+    return Domains()
 
 
 def _ledger(case):

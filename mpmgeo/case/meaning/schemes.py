@@ -10,7 +10,6 @@ LINEAR_LAST = (
     '"stress_scheme_update": "MUSL" mends it'
 )
 
-
 KNOWN = {"shape_function": shapes, "stress_scheme_update": schemes}
 """Keys, with the module that knows which of their words MPM-Geomechanics has."""
 

@@ -40,7 +40,7 @@ def half_size(half, p):
 def _half_size(half, p):
     # the fourth lane is no axis; it must not divide by zero
     if hasattr(half, "ndim"):
-        return lambda half, p: pack4(half[p, 0], half[p, 1], half[p, 2], 0.5)
+        return lambda half, p: max(load_row(half, p), pack4(0.0, 0.0, 0.0, 0.5))
     return lambda half, p: pack4(half[0], half[1], half[2], 0.5)
 
 

@@ -6,6 +6,7 @@ part of m that touches the ground.
 
 from typing import NamedTuple
 
+from mpmgeo.mpm.core.domain import deform, moved_with_corners
 from mpmgeo.mpm.core.loops import visit
 from mpmgeo.mpm.core.opening import confine
 from mpmgeo.mpm.core.point import (
@@ -70,8 +71,9 @@ class Gather(NamedTuple):
     """Move the particles with the nodes and update their stress; tells who left its block.
 
     Velocities change by h times the acceleration. With v None they stay, and positions follow the
-    velocity that `Velocity` kept. With `law` None volume and stress stay. Arrays: v, those of
-    `ParticleSet.material`.
+    velocity that `Velocity` kept. With `law` None volume and stress stay. Domains follow the nodes
+    as they are, and positions with them. Arrays: v, those of `ParticleSet.material` and of its
+    `follower`.
     """
 
     law: object
@@ -82,11 +84,13 @@ class Gather(NamedTuple):
 
 @visit.register(Gather)
 def gather(work, here, a, p):
-    v, material = a
+    v, material, follower = a
     n, wx, wy, wz = locate(here, p)
     value, sx, sy, sz = collect(here.source, n, here.rows, wx, wy, wz)
     _strained(work, work.law, here, value, sx, sy, sz, material, p)
     X = _moved(work, here.x, v, value, p)
+    X = moved_with_corners(follower, work.dt, here, n, X, p)
+    deform(follower, here, sx, sy, sz, work.dt, p)
     store_row(here.x, p, X)
     return 0 if within(in_block(here.mesh, here.origin, X), here.low, here.high) else 1
 

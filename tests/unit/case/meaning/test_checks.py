@@ -1,6 +1,7 @@
 """Contradictions between keys that are each fine by themselves."""
 
 import pytest
+from terrains import plane, text_of
 
 from mpmgeo.case.load import CaseError, load_case
 from mpmgeo.shapes import SHAPES
@@ -68,6 +69,40 @@ def test_splines_are_not_as_in_mpm_geomechanics(case, shape):
         f'shape_function: MPM-Geomechanics has no "{shape}"; '
         'accepted with compatibility: "GIMP", "linear"'
     )
+
+
+UPDATED = {"particle_domain": "updated"}
+
+
+@pytest.mark.parametrize("scheme", ["USL", "MUSL"])
+def test_sizes_of_gimp_can_follow(case, scheme):
+    loaded = load_case(case | UPDATED | {"stress_scheme_update": scheme})
+    assert loaded.particle_domain == "updated"
+    assert load_case(case).particle_domain == "initial"
+
+
+@pytest.mark.parametrize(
+    ("keys", "message"),
+    [
+        ({"shape_function": "linear", "stress_scheme_update": "MUSL"}, 'with "linear" particles'),
+        ({"shape_function": "cubic-bspline"}, 'with "cubic-bspline" particles have no size;'),
+        ({"stress_scheme_update": "USF"}, '"USF" strains with other velocities than those that'),
+        ({"compatibility": "mpm-geomechanics"}, "MPM-Geomechanics keeps the sizes of particles;"),
+        ({"particle_domain": "rotated"}, '"rotated" is not accepted; accepted: "initial", '),
+    ],
+    ids=["linear", "spline", "USF", "compatibility", "word"],
+)
+def test_sizes_that_cannot_follow(case, keys, message):
+    (problem,) = problems(case | UPDATED | keys)
+    assert problem.startswith(f"particle_domain: {message}")
+
+
+def test_sizes_do_not_follow_on_a_terrain(case, tmp_path):
+    (tmp_path / "ground.stl").write_text(text_of(plane()))
+    terrain = {"active": True, "stl_mesh": str(tmp_path / "ground.stl")}
+    (problem,) = problems(case | UPDATED | {"terrain_contact": terrain})
+    assert problem.startswith("particle_domain: contact with a terrain is for particles that keep")
+    assert load_case(case | UPDATED | {"terrain_contact": terrain | {"active": False}})
 
 
 def test_usl_need_not_be_written_to_be_warned_of(case):
