@@ -13,10 +13,11 @@ from pathlib import Path
 from mpmgeo.bodies import BODIES
 from mpmgeo.boundaries.planes import BoundaryConditions
 from mpmgeo.boundaries.terrain import TerrainContact
+from mpmgeo.case.method import Method
 from mpmgeo.damping import DAMPINGS, NoDamping
 from mpmgeo.loads import LOADS, Gravity
 from mpmgeo.materials import LAWS
-from mpmgeo.mpm.schemes import SCHEMES, NewmarkNumbers
+from mpmgeo.mpm.schemes import SCHEMES
 from mpmgeo.output.fields import (
     FLUID_FIELDS,
     FURTHER_FIELDS,
@@ -26,8 +27,6 @@ from mpmgeo.output.fields import (
 )
 from mpmgeo.output.probes import PROBES
 from mpmgeo.parameters import Counts, Placed, Vector, parameter
-from mpmgeo.shapes import SHAPES
-from mpmgeo.shapes.lme import LocalMaxEnt
 
 Law = reduce(or_, LAWS)
 Body = reduce(or_, BODIES)
@@ -198,24 +197,6 @@ class Settings:
     critical_time_step_multiplier: float = parameter(
         "Share of the critical time step to use when none is given", above=0, default=0.25
     )
-    stress_scheme_update: str = parameter(
-        "When stresses are updated: last, last with modified velocities, first, or between a "
-        "predictor and a corrector",
-        choices=tuple(SCHEMES),
-        default="USL",
-    )
-    shape_function: str = parameter(
-        "Interpolation between particles and grid", choices=tuple(SHAPES), default="GIMP"
-    )
-    npc: NewmarkNumbers = parameter(
-        "The numbers of the schemes NPC and NPC-CD", default=NewmarkNumbers()
-    )
-    lme: LocalMaxEnt = parameter("The numbers of the shape LME", default=LocalMaxEnt())
-    particle_domain: str = parameter(
-        "Size of particles in interpolation: as at the start, or following their deformation",
-        choices=("initial", "updated"),
-        default="initial",
-    )
     n_phases: int = parameter(
         "Number of phases: the solid alone, or with a fluid in its pores",
         choices=(1, 2),
@@ -286,7 +267,7 @@ Actions = make_dataclass("Actions", map(_field_of, ACTIONS), frozen=True)
 
 
 @dataclass(frozen=True)
-class Case(Actions, Settings):
+class Case(Actions, Method, Settings):
     """A simulation as its case file describes it, checked, defaults filled in, SI units."""
 
     results: Results = parameter("What the run writes", default=Results())

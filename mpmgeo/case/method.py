@@ -1,0 +1,32 @@
+"""What a case may say of the method: scheme, shape functions, and what belongs to them."""
+
+from dataclasses import dataclass
+
+from mpmgeo.mpm.schemes import SCHEMES, NewmarkNumbers
+from mpmgeo.parameters import parameter
+from mpmgeo.shapes import SHAPES
+from mpmgeo.shapes.lme import LocalMaxEnt
+
+
+@dataclass(frozen=True)
+class Method:
+    """How the equations of motion are solved."""
+
+    stress_scheme_update: str = parameter(
+        "When stresses are updated: last, last with modified velocities, first, or between a "
+        "predictor and a corrector",
+        choices=tuple(SCHEMES),
+        default="USL",
+    )
+    shape_function: str = parameter(
+        "Interpolation between particles and grid", choices=tuple(SHAPES), default="GIMP"
+    )
+    npc: NewmarkNumbers = parameter(
+        "The numbers of the schemes NPC and NPC-CD", default=NewmarkNumbers()
+    )
+    lme: LocalMaxEnt = parameter("The numbers of the shape LME", default=LocalMaxEnt())
+    particle_domain: str = parameter(
+        "Size of particles in interpolation: as at the start, or following their deformation",
+        choices=("initial", "updated"),
+        default="initial",
+    )
