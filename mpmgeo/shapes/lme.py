@@ -100,6 +100,7 @@ def _of_width(count):
 
 
 def lme(shape, s, l, cut):
+    """Return what `stencil` does for all shapes of this file."""
     last = 0.5 * (len(shape.a) - 1.0) - HAIR
     s = min(max(s, cut[0] - last), last - cut[1])
     return tilted(shape, s, -s - 0.5 * (len(shape.a) - 1.0), cut)
