@@ -5,7 +5,6 @@ from functools import cached_property
 from pathlib import Path
 
 import numba
-import numpy as np
 
 from mpmgeo.case.building.lint import lint
 from mpmgeo.case.building.solver import build
@@ -14,6 +13,7 @@ from mpmgeo.case.coordinates import in_mesh
 from mpmgeo.case.load import load_case
 from mpmgeo.case.report import nearest, show
 from mpmgeo.case.spec import Case
+from mpmgeo.mpm.assignment import assign
 from mpmgeo.mpm.incidents import Unsound
 from mpmgeo.naming import ENERGIES, PLANES
 from mpmgeo.numerics.chunks import most_threads
@@ -261,20 +261,11 @@ class Simulation:
     def assign(self, key, values):
         """Set "velocity" (n, 3) [m/s] or "stress" (n, 6) [Pa] of all particles, in row order.
 
-        With two phases also "velocity_fluid" (n, 3) and "pressure" (n,) [Pa]. Raises KeyError for
-        another key, ValueError for another shape.
+        Also "displacement" (n, 3) [m] and "deformation_gradient" (n, 3, 3), which sets the volume,
+        and the stress of laws that keep it; with two phases "velocity_fluid" (n, 3) and "pressure"
+        (n,) [Pa]. Raises KeyError for another key, ValueError for values that cannot be.
         """
-        known = {"velocity": ("v", (3,)), "stress": ("stress", (6,))}
-        if self.case.n_phases == 2:
-            known |= {"velocity_fluid": ("vf", (3,)), "pressure": ("pf", ())}
-        if key not in known:
-            raise KeyError(f"{key!r} cannot be assigned; what can: {', '.join(known)}")
-        name, shape = known[key]
-        values, shape = np.asarray(values, float), (self.solver.count, *shape)
-        if values.shape != shape:
-            raise ValueError(f"{key} has the shape {shape}, not {values.shape}")
-        for s in self.solver.sets:
-            getattr(s, name)[:] = values[s.row]
+        assign(self.solver, key, values)
         self._changed()
 
     def _changed(self):

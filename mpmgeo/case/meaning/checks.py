@@ -7,6 +7,7 @@ import numpy as np
 from mpmgeo.boundaries.terrain import TerrainContact
 from mpmgeo.case.kinds import containers
 from mpmgeo.case.meaning.bodies import check_bodies, check_materials
+from mpmgeo.case.meaning.deformation import check_deformation
 from mpmgeo.case.meaning.phases import check_phases, note_idle
 from mpmgeo.case.meaning.schemes import check_schemes
 from mpmgeo.case.meaning.slips import warn_of_slips
@@ -27,6 +28,7 @@ def check(draft, report):
     _check_points(draft, report)
     check_steps(draft, report)
     check_schemes(draft, report)
+    check_deformation(draft, report)
     _check_files(draft, report)
     _check_names(draft, report)
     _check_base(draft, report)
