@@ -95,6 +95,10 @@ class LoadsInTime(Effect):
         self.loads = loads
         self._works = None  # of all factors, before a step with a ledger
 
+    def changes(self, name):
+        """Tell whether it changes an array of the sets, `force` or `pull`."""
+        return any(getattr(load, "name", None) == name for load in self.loads)
+
     def join(self, solver):
         """Begin with the forces of the start."""
         self.resumed(solver)
