@@ -1,9 +1,10 @@
 """A neo-Hookean cube in which a standing wave runs along every axis: large strains, no shear.
 
     u_i = A sin(πX_i) sin(π(φ_i + ct)),    φ = (0, 2/3, 4/3),    c = √(E/ρ)
-    b_i = π² u_i (μ/ρ − c² − (λ (ln J − 1) − μ)/(ρ F_ii²)),    F_ii = 1 + Aπ cos(πX_i) sin(π(φ_i + ct))
+    F_ii = 1 + Aπ cos(πX_i) sin(π(φ_i + ct)),    J = F_xx F_yy F_zz
+    b_i = π² u_i (μ/ρ − c² − (λ (ln J − 1) − μ)/(ρ F_ii²))
 
-with J the product of the F_ii. It begins deformed, and all faces are planes of symmetry. Source:
+It begins deformed, and all faces are planes of symmetry. Source:
 Wallstedt and Guilkey (2008), J. Comput. Phys. 227, 9628–9642, here in three dimensions.
 """
 

@@ -4,7 +4,7 @@
 
 at the height Z of the start: the area stays, so that the stress is statically determined. The place
 of a point is the integral of Λ from the floor. Source: Bardenhagen and Kober (2004), Comput. Model.
-Eng. Sci. 5, 477–495, section 4.2, with this law.
+Eng. Sci. 5, 477–495, here with a neo-Hookean law.
 """
 
 from dataclasses import dataclass

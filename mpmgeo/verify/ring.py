@@ -1,4 +1,4 @@
-"""An expanding ring: a neo-Hookean ring without lateral strain (ν = 0) breathes; its edges are free.
+"""An expanding ring: one of neo-Hookean material (ν = 0) with free edges breathes.
 
     u = A sin(cπt) (c₃R³ + c₂R² + c₁R),    u′ = 0 at both edges,    u(Rₒ) = A sin(cπt)
     c₁ = −6Rᵢ/(Rₒ(Rₒ − 3Rᵢ)),    c₂ = 3(Rₒ + Rᵢ)/(Rₒ²(Rₒ − 3Rᵢ)),    c₃ = −2/(Rₒ²(Rₒ − 3Rᵢ))
