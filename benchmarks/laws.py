@@ -24,6 +24,7 @@ LAWS = {
     ELASTIC: {"type": "elastic"},
     "elastic, jaumann": {"type": "elastic", "objective_rate": "jaumann"},
     "elastic, hughes-winget": {"type": "elastic", "objective_rate": "hughes-winget"},
+    "neo-hookean": {"type": "neo-hookean"},
     "mohr-coulomb that yields": WEAK,
     "mohr-coulomb that yields, softening": WEAK | SOFT,
     "mohr-coulomb that yields, su_vertical_stress": WEAK | {"su_vertical_stress": 0.1},

@@ -5,7 +5,6 @@ from functools import cached_property
 from pathlib import Path
 
 import numba
-import numpy as np
 
 from mpmgeo.case.building.lint import lint
 from mpmgeo.case.building.solver import build
@@ -14,6 +13,7 @@ from mpmgeo.case.coordinates import in_mesh
 from mpmgeo.case.load import load_case
 from mpmgeo.case.report import nearest, show
 from mpmgeo.case.spec import Case
+from mpmgeo.mpm.assignment import assign
 from mpmgeo.mpm.incidents import Unsound
 from mpmgeo.naming import ENERGIES, PLANES
 from mpmgeo.numerics.chunks import most_threads
@@ -36,21 +36,24 @@ class Simulation:
     """A case with its state.
 
     `case`: what `load_case` returns, or takes; `output`: folder for the files of the run, None for
-    none; `threads`: number of threads, by default what the case says, or all. What is hardly meant
-    is in `warnings`, which are shown as CaseWarning. Raises ValueError for a file or geometry that
-    cannot be used, and what `load_case` raises.
+    none; `threads`: number of threads, by default what the case says, or all; `body_force`: None,
+    or a function (t, X) of time [s] and of where the particles began (n, 3) [m] that returns
+    accelerations (n, 3) [m/s²]. What is hardly meant is in `warnings`, which are shown as
+    CaseWarning. Raises ValueError for a file or geometry that cannot be used, and what `load_case`
+    raises.
     """
 
-    def __init__(self, case, output=None, threads=None):
-        self._build(case if isinstance(case, Case) else load_case(case), output, threads)
+    def __init__(self, case, output=None, threads=None, body_force=None):
+        case = case if isinstance(case, Case) else load_case(case)
+        self._build(case, output, threads, body_force)
         self.warnings = lint(self)
         show(self.warnings)
 
-    def _build(self, case, output, threads):
-        self.case = case
+    def _build(self, case, output, threads, body_force):
+        self.case, self.body_force = case, body_force
         self.output = None if output is None else Path(output)
         self.messages = [*case.notes, *case.warnings]
-        self.solver, notes = build(case)
+        self.solver, notes = build(case, body_force)
         self.probes = in_mesh(case.results, case.mesh.origin).probes
         self.messages += [*notes, *remarks()]
         self.threads = self._set_threads(threads or case.n_threads)
@@ -67,25 +70,26 @@ class Simulation:
         self._histories = histories_of(self, self.output or Path())
 
     @classmethod
-    def resume(cls, path, case=None, output=None, threads=None, allow=()):
+    def resume(cls, path, case=None, output=None, threads=None, allow=(), body_force=None):
         """Return a simulation in the state of the snapshot at `path`, from which it goes on.
 
         `case`: the snapshot's case, needed only if the files that it names have moved, or if it has
         other values of the keys in `allow`, like "gravity" or "materials[0].young"; `changes` tells
-        of them, here and in later snapshots. Raises ValueError if the snapshot cannot be used or is
-        not of the case.
+        of them, here and in later snapshots. A `body_force` of the run is to be given again. Raises
+        ValueError if the snapshot cannot be used or is not of the case.
         """
-        from mpmgeo.case.resume import branch_of, record_of, remarks_on, topics_of
+        from mpmgeo.case.resume import branch_of, check_force, record_of, remarks_on, topics_of
         from mpmgeo.mpm.persistence import take_snapshot
         from mpmgeo.state.snapshot import StoredSnapshot
 
         snapshot = StoredSnapshot(path)
         told = topics_of(path, snapshot.facts)
+        check_force(path, snapshot.facts, body_force)
         if case is not None and not isinstance(case, Case):
             case = load_case(case)
         case, changed = branch_of(path, snapshot.facts, case, allow)
         simulation = cls.__new__(cls)
-        simulation._build(replace(case, load_state=False), output, threads)
+        simulation._build(replace(case, load_state=False), output, threads, body_force)
         simulation.case = case
         take_snapshot(simulation.solver, snapshot)
         simulation._told = told
@@ -105,6 +109,7 @@ class Simulation:
 
         arrays, facts = snapshot_of(self.solver)
         facts |= {"told": sorted(self._told), "changes": self.changes, **self._case_facts}
+        facts["body_force"] = self.body_force is not None
         with whole_file(path) as file:
             write_snapshot(file, Snapshot(arrays, facts))
         self.snapshot = path
@@ -261,20 +266,11 @@ class Simulation:
     def assign(self, key, values):
         """Set "velocity" (n, 3) [m/s] or "stress" (n, 6) [Pa] of all particles, in row order.
 
-        With two phases also "velocity_fluid" (n, 3) and "pressure" (n,) [Pa]. Raises KeyError for
-        another key, ValueError for another shape.
+        Also "displacement" (n, 3) [m] and "deformation_gradient" (n, 3, 3), which sets the volume,
+        and the stress of laws that keep it; with two phases "velocity_fluid" (n, 3) and "pressure"
+        (n,) [Pa]. Raises KeyError for another key, ValueError for values that cannot be.
         """
-        known = {"velocity": ("v", (3,)), "stress": ("stress", (6,))}
-        if self.case.n_phases == 2:
-            known |= {"velocity_fluid": ("vf", (3,)), "pressure": ("pf", ())}
-        if key not in known:
-            raise KeyError(f"{key!r} cannot be assigned; what can: {', '.join(known)}")
-        name, shape = known[key]
-        values, shape = np.asarray(values, float), (self.solver.count, *shape)
-        if values.shape != shape:
-            raise ValueError(f"{key} has the shape {shape}, not {values.shape}")
-        for s in self.solver.sets:
-            getattr(s, name)[:] = values[s.row]
+        assign(self.solver, key, values)
         self._changed()
 
     def _changed(self):

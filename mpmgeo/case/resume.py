@@ -87,6 +87,18 @@ def topics_of(path, facts) -> set:
     return set(told)
 
 
+def check_force(path, facts, body_force) -> None:
+    """Raise ValueError unless a `body_force` is given for a run that had one, and only then."""
+    had = facts.get("body_force", False)
+    if had and body_force is None:
+        raise ValueError(
+            f"{path}: the run has a body_force, a function that no file holds; in Python give it "
+            "again, Simulation.resume(path, body_force=…)"
+        )
+    if body_force is not None and not had:
+        raise ValueError(f"{path}: the run has no body_force; leave it out")
+
+
 def record_of(simulation, changed) -> list:
     """Return what snapshots record of values that changed when a run went on."""
     if not changed:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from math import inf
 from typing import NamedTuple
 
+from mpmgeo.materials.hyperelastic import is_hyperelastic
 from mpmgeo.materials.rotation import objective_rate
 from mpmgeo.numerics.dispatch import generic
 from mpmgeo.parameters import Vector, parameter
@@ -99,4 +100,4 @@ def no_strain_energy(law, stress):
 
 def stores_energy(law) -> bool:
     """Tell whether the law of some symbols says what elastic energy a stress means."""
-    return strain_energy.find(type(law)) is not no_strain_energy
+    return is_hyperelastic(law) or strain_energy.find(type(law)) is not no_strain_energy

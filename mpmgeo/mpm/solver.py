@@ -95,6 +95,11 @@ class Solver(Stages):
         """Return the terrain that particles touch, None without."""
         return self.effect("ground")
 
+    @property
+    def load_time(self) -> float:
+        """Return of which time the loads of the next step are [s]: with Newmark's its end."""
+        return self.time + (self.time_step if isinstance(self.scheme, Newmark) else 0.0)
+
     def news(self):
         """Yield (topic, messages) for what the user should be told of, `messages` a function."""
         if self.departures:

@@ -4,9 +4,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mpmgeo.materials.hyperelastic import energy_of
 from mpmgeo.materials.law import strain_energy
 from mpmgeo.numerics.chunks import blockwise
 from mpmgeo.numerics.jit import inlined
+from mpmgeo.numerics.matrices import row_of
 from mpmgeo.state.grid import cut
 
 
@@ -45,20 +47,28 @@ def _pressed(pressure, V, p):
     return 0.0 if pressure is None else pressure[p] * V[p]
 
 
+@inlined
+def _elastic(law, stress, F, p):
+    """Return the elastic energy of particle p in a unit of volume."""
+    if F is not None:
+        return energy_of(law, row_of(F, p))
+    σ = stress[p, 0], stress[p, 1], stress[p, 2], stress[p, 3], stress[p, 4], stress[p, 5]
+    return strain_energy(law, σ)
+
+
 @blockwise
 def _tally(c, chunk, start, law, gravity, body, a, out):
-    row, x, v, m, V, stress, force, pressure = a
+    row, x, v, m, V, stress, F, force, pressure = a
     for p in range(start[chunk[c]], start[chunk[c + 1]]):
         o = body[row[p]]
         u, w, q = v[p, 0], v[p, 1], v[p, 2]
         fx, fy, fz = _force(force, gravity, m[p], p)
-        σ = (stress[p, 0], stress[p, 1], stress[p, 2], stress[p, 3], stress[p, 4], stress[p, 5])
         out[c, o, 0] += m[p]
         out[c, o, 1] += m[p] * u
         out[c, o, 2] += m[p] * w
         out[c, o, 3] += m[p] * q
         out[c, o, 4] += 0.5 * m[p] * (u * u + w * w + q * q)
-        out[c, o, 5] += V[p] * strain_energy(law, σ)
+        out[c, o, 5] += V[p] * _elastic(law, stress, F, p)
         out[c, o, 6] += fx * x[p, 0] + fy * x[p, 1] + fz * x[p, 2] + _pressed(pressure, V, p)
         out[c, o, 7] += fx * u + fy * w + fz * q
 
@@ -75,7 +85,7 @@ def tally(sets, gravity, body, crew, left=False) -> Tally:
             continue
         out = np.zeros((len(s.chunk) - 1, *total.shape))
         chunk = cut(start) if left else s.chunk
-        arrays = (s.row, s.x, s.v, s.m, s.V, s.stress, s.force, s.pressure)
+        arrays = (s.row, s.x, s.v, s.m, s.V, s.stress, s.F, s.force, s.pressure)
         _tally(crew, chunk, start, s.law, gravity, body, arrays, out)
         total += out.sum(axis=0)
     return Tally(total[:, 0], total[:, 1:4], *total[:, 4:].T)

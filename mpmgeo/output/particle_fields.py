@@ -29,6 +29,8 @@ _NAMES = {
 _ARRAYS = {"velocity": "v", "stress": "stress"}
 TENSORS = {"stress": "Stress", "strain": "Strain"}
 _VECTORS = ("position", "velocity", "displacement", "external_force", "velocity_fluid")
+DEFORMATION = "deformation_gradient"
+"""Field of the particles whose law keeps it; zero for others."""
 WITH_STRAIN = ("strain", "deviatoric_strain")
 """Fields for which the particles' strains must be kept."""
 
@@ -52,6 +54,8 @@ def particle_field_names(solver):
     """Return the names of all fields: keys of a case, some that only scripts use, and variables of
     the laws in use, which are zero for other laws."""
     names = [*PARTICLE_FIELDS, *_ARRAYS, *_VALUES, *_OF_THE_FLUID]
+    if any(s.F is not None for s in solver.sets):
+        names.append(DEFORMATION)
     return list(dict.fromkeys([*names, *(name for s in solver.sets for name in s.law.STATE)]))
 
 
@@ -65,6 +69,8 @@ def field_of(solver, s, key, at=slice(None)):
         if s.fluid is None:
             raise KeyError(f"{key}: exists with two phases only")
         return _OF_THE_FLUID[key](s, at)
+    if key == DEFORMATION and s.F is not None:
+        return s.F[at].reshape(-1, 3, 3)
     if key in s.law.STATE:
         return s.state[at, s.law.STATE.index(key)]
     if key in particle_field_names(solver):
@@ -76,6 +82,8 @@ def _shape(key):
     """Return the shape of a field's value at one particle."""
     if key in TENSORS:
         return (6,)
+    if key == DEFORMATION:
+        return (3, 3)
     return (3,) if key in _VECTORS or key.startswith("particle_contact_force") else ()
 
 

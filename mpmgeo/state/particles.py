@@ -15,11 +15,13 @@ from mpmgeo.state.grid import cut
 
 ARRAYS = (
     *("row", "x", "v", "m", "V", "stress", "half", "force", "state", "pressure", "strain", "work"),
-    *("a", "mf", "vf", "pf", "free", "pull"),
+    *("F", "a", "mf", "vf", "pf", "free", "pull"),
     *("due", "contact", "domain"),
 )
 """Fields of a set that are arrays, if they are there, with a row for each particle."""
 
+IDENTITY = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+"""Deformation gradient at rest, as F holds it: xx xy xz yx yy yz zx zy zz."""
 
 OPENING = "opening"
 """Variable of laws that let tension open the material: the strain by which it is open."""
@@ -59,6 +61,7 @@ class ParticleSet:
     state: np.ndarray | None = None  # (n, k) variables of the law
     pressure: np.ndarray | None = None  # (n,) given pore pressure [Pa], compression positive
     strain: np.ndarray | None = None  # (n, 6) sum of the strain increments [-]
+    F: np.ndarray | None = None  # (n, 9) deformation gradient, if the law wants it [-]
     work: np.ndarray | None = None  # (n, 2) done by stresses, and by pressure in opening [J]
     a: np.ndarray | None = None  # (n, 3) acceleration in the last step [m/s²]
     due: np.ndarray | None = None  # (n,) when to look for contact, see `mpm.touch`; −1 in contact
@@ -82,14 +85,14 @@ class ParticleSet:
 
     @property
     def material(self):
-        """Return what an update needs: V, stress, m, state, strain, work, pressure.
+        """Return what an update needs: V, stress, m, state, strain, work, pressure, F.
 
         The masses only where they bound what tension opens, that is for `GRAINS`, the pressure
         where it works on what opens, and the work is kept.
         """
         m = self.m if getattr(self.law, "GRAINS", False) else None
         pressure = self.pressure if self.work is not None and opens_under_pressure(self) else None
-        return self.V, self.stress, m, self.state, self.strain, self.work, pressure
+        return self.V, self.stress, m, self.state, self.strain, self.work, pressure, self.F
 
     @property
     def follower(self):

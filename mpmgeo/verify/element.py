@@ -13,9 +13,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mpmgeo.materials.hyperelastic import is_hyperelastic
 from mpmgeo.materials.rotation import ROTATIONS
 from mpmgeo.mpm.core.point import advance
 from mpmgeo.numerics.jit import compiled
+from mpmgeo.state.particles import IDENTITY
 
 COMPONENTS = ("xx", "yy", "zz", "xy", "yz", "xz")
 MOST_TRIES = 50
@@ -39,17 +41,20 @@ class Path(NamedTuple):
 
 
 @compiled
-def advance_points(law, rotation, strain, spin, V, stress, state, dt):
-    """Update stress (n, 6) and state (n, k) of points for strains (n, 6) and spins (n, 3)."""
+def advance_points(law, rotation, strain, spin, V, stress, state, dt, F=None):
+    """Update stress (n, 6), state (n, k), F (n, 9) for strains (n, 6) and spins (n, 3)."""
     for p in range(len(V)):
         e, w = strain[p], spin[p]
         ε = (e[0], e[1], e[2], e[3], e[4], e[5])
         W = w[0], w[1], w[2]
-        advance(law, rotation, ε, W, V, stress, state, None, None, None, p, dt)
+        advance(law, rotation, ε, W, V, stress, state, None, None, None, F, p, dt)
 
 
 class Element:
-    """A point of a material with its stress (6,) [Pa], strain (6,) [-] and state (k,)."""
+    """A point of a material with its stress (6,) [Pa], strain (6,) [-] and state (k,).
+
+    `F` (9,): deformation gradient of a law that wants one, None for others.
+    """
 
     def __init__(self, law, stress=(0.0,) * 6, time_step=1e-3, as_mpm_geomechanics=False):
         self.symbols = law.symbols_as_mpm_geomechanics if as_mpm_geomechanics else law.symbols
@@ -58,6 +63,7 @@ class Element:
         self.stress = np.array(stress, float)
         self.strain = np.zeros(6)
         self.state = np.zeros(len(self.symbols.STATE))
+        self.F = np.array(IDENTITY) if is_hyperelastic(self.symbols) else None
 
     def drive(self, strain, steps: int = 1, spin=(0.0, 0.0, 0.0)) -> Path:
         """Apply a strain (6,), and a spin W_xy, W_yz, W_xz, in equal steps; returns the path."""
@@ -80,26 +86,28 @@ class Element:
         return _path(self._reach(increment, free, target) for target in targets)
 
     def _response(self, strain, spin=(0.0, 0.0, 0.0)):
-        """Return stress and state after a strain increment, without applying it."""
+        """Return stress, state and F after a strain increment, without applying it."""
         stress = self.stress[None].copy()
         state = self.state[None].copy() if len(self.state) else None
+        F = None if self.F is None else self.F[None].copy()
         strain, spin = np.array(strain, float)[None], np.array(spin, float)[None]
-        arguments = (strain, spin, np.ones(1), stress, state, self.time_step)
+        arguments = (strain, spin, np.ones(1), stress, state, self.time_step, F)
         advance_points(self.symbols, self.rotation, *arguments)
-        return stress[0], self.state if state is None else state[0]
+        state = self.state if state is None else state[0]
+        return stress[0], state, None if F is None else F[0]
 
-    def _apply(self, strain, stress, state):
-        self.strain, self.stress, self.state = self.strain + strain, stress, state
+    def _apply(self, strain, stress, state, F):
+        self.strain, self.stress, self.state, self.F = self.strain + strain, stress, state, F
         return self.strain, self.stress, self.state
 
     def _reach(self, strain, free, target):
         """Apply the strain that is given but for its `free` components and gives the target."""
         strain = strain.copy()
         for _ in range(MOST_TRIES):
-            stress, state = self._response(strain)
+            stress, *others = self._response(strain)
             error = stress[free] - target
             if np.abs(error).max(initial=0.0) <= ACCURACY * np.abs(stress).max():
-                return self._apply(strain, stress, state)
+                return self._apply(strain, stress, *others)
             probes = [self._response(strain + PROBE * np.eye(6)[c])[0][free] for c in free]
             tangent = (np.array(probes).T - stress[free][:, None]) / PROBE
             strain[free] -= np.linalg.lstsq(tangent, error, rcond=1e-6)[0]

@@ -14,6 +14,7 @@ from math import floor, sqrt
 
 import numpy as np
 
+from mpmgeo.materials.hyperelastic import is_hyperelastic
 from mpmgeo.mpm.core.opening import confine
 from mpmgeo.mpm.core.point import advance
 from mpmgeo.mpm.newmark import Newmark, PredictorCorrector
@@ -135,11 +136,12 @@ def held(free, n, a):
 def gather(shape, box, law, rotation, rows, half, x, v, own, nodes, A, drift, dt, h):
     """Change v by the nodal A, move x with `drift`, strain with U; what is None is left out.
 
-    `law` None: no strain; `own`: masses or None, volumes, stresses, variables of the law;
+    `law` None: no strain; `own`: masses or None, volumes, stresses, variables of the law,
+    deformation gradients or None;
     `nodes`: M and U.
     """
     S = width(shape)
-    m, V, stress, state = own
+    m, V, stress, state, F = own
     M, U = nodes
     for p in rows:
         I, wx = stencil_along(0, shape, box, half, x, p)
@@ -163,20 +165,20 @@ def gather(shape, box, law, rotation, rows, half, x, v, own, nodes, A, drift, dt
                         mass += w * M[n]
         if law is not None:
             confine(law, box.mesh, x, mass, m, V, state, p)
-            strain(law, rotation, dx, dy, dz, V, stress, state, p, dt)
+            strain(law, rotation, dx, dy, dz, V, stress, state, F, p, dt)
         for c in range(3):
             v[p, c] += h * a[c]
             x[p, c] += dt * u[c]
 
 
 @inlined
-def strain(law, rotation, dx, dy, dz, V, stress, state, p, dt):
+def strain(law, rotation, dx, dy, dz, V, stress, state, F, p, dt):
     """Update the material of particle p; `dx` … are the columns of its velocity gradient."""
     x, y, z = plus(ZERO, dt, dx), plus(ZERO, dt, dy), plus(ZERO, dt, dz)
     xy, yz, xz = 0.5 * (x[1] + y[0]), 0.5 * (y[2] + z[1]), 0.5 * (z[0] + x[2])
     ε = x[0], y[1], z[2], xy, yz, xz
     W = 0.5 * (y[0] - x[1]), 0.5 * (z[1] - y[2]), 0.5 * (z[0] - x[2])
-    advance(law, rotation, ε, W, V, stress, state, None, None, None, p, dt)
+    advance(law, rotation, ε, W, V, stress, state, None, None, None, F, p, dt)
 
 
 @compiled
@@ -220,7 +222,7 @@ class PlainSolver:
         n = solver.count
         self.m, self.V, self.pressure, self.stress = *np.zeros((3, n)), np.zeros((n, 6))
         self.x, self.v, self.a, self.force, self.half = (np.zeros((n, 3)) for _ in range(5))
-        self.active = np.zeros(n, bool)
+        self.gradient, self.active = np.zeros((n, 9)), np.zeros(n, bool)
         for s in solver.sets:
             self.active[s.row[: s.active]] = True
             self.m[s.row], self.V[s.row], self.half[s.row] = s.m, s.V, s.half
@@ -228,6 +230,8 @@ class PlainSolver:
             if s.a is not None:
                 self.a[s.row] = s.a
             self.force[s.row] = s.m[:, None] * solver.gravity
+            if s.F is not None:
+                self.gradient[s.row] = s.F
             if s.force is not None:
                 self.force[s.row] += s.force
             if s.pressure is not None:
@@ -307,7 +311,7 @@ class PlainSolver:
     def _gather(self, h, A, drift, strains=False):
         for (law, rotation, rows), state in zip(self.sets, self.state, strict=True):
             m = self.m if getattr(law, "GRAINS", False) else None
-            own = m, self.V, self.stress, state
+            own = m, self.V, self.stress, state, self.gradient if is_hyperelastic(law) else None
             gather(
                 *(self.shape, self.box, law if strains else None, rotation, rows, self.half),
                 *(self.x, self.v, own, (self.M, self.U), A, drift, self.time_step, h),

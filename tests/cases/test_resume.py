@@ -75,6 +75,7 @@ def case_of(**keys):
 
 ELASTIC = {"type": "elastic", "id": 2, "density": 500.0, "young": 5e5, "poisson": 0.0}
 PLASTIC = ELASTIC | {"type": "mohr-coulomb", "id": 1, "friction": 30, "cohesion": 1e3}
+HYPERELASTIC = ELASTIC | {"type": "neo-hookean", "id": 1, "density": 1000.0}
 PUSHED = {"name": "pushed", "body": 1, "velocity": [9, None, 1], "every": 5}
 SHAKEN = {"earthquake": {"active": True, "file": "record.csv"}}
 WET = {
@@ -127,6 +128,8 @@ CASES = {
     "earthquake in the old form": SHAKEN | OLD,
     "earthquake in the old form, MUSL": SHAKEN | OLD | {"stress_scheme_update": "MUSL"},
     "Mohr–Coulomb": {"materials": [PLASTIC, ELASTIC]},
+    "neo-Hookean": {"materials": [HYPERELASTIC, ELASTIC]},
+    "energy, neo-Hookean": ENERGY | {"materials": [HYPERELASTIC, ELASTIC]},
     "prescribed velocity": {"prescribed_velocity": [PUSHED]},
     "two phases": WET,
     "two phases, MUSL": WET | {"stress_scheme_update": "MUSL"},

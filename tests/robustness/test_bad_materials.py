@@ -33,6 +33,7 @@ SAND = {
     "objective_rate": "jaumann",
 }
 WATER = {"type": "newtonian", "id": 1, "density": 1000, "viscosity": 1e-3, "bulk": 2e6}
+RUBBER = {"type": "neo-hookean", "id": 1, "density": 1000, "young": 1e6, "poisson": 0.3}
 
 BAD = [
     (SAND, "young", ABSENT, "missing; needed: a number above 0 (Young's modulus [Pa])"),
@@ -68,6 +69,10 @@ BAD = [
     (SAND, "objective_rate", "Jaumann", 'did you mean "jaumann"?'),
     (SAND, "objective_rate", "green-naghdi", f'{NOT} "none", "jaumann", "hughes-winget"'),
     (SAND, "objective_rate", True, f'true {NOT} "none", "jaumann", "hughes-winget"'),
+    (RUBBER, "young", ABSENT, "missing; needed: a number above 0 (Young's modulus [Pa])"),
+    (RUBBER, "poisson", 0.5, f"0.5 {NOT} a number above -1 and below 0.5"),
+    (RUBBER, "objective_rate", "jaumann", "stress turns with the deformation gradient; leave"),
+    (RUBBER, "type", "neohookean", 'did you mean "neo-hookean"?'),
     (WATER, "bulk", ABSENT, "missing; needed: a number above 0 (Bulk modulus [Pa])"),
     (WATER, "bulk", 0, f"0 {NOT} a number above 0"),
     (WATER, "viscosity", -1e-3, f"-0.001 {NOT} a number at least 0"),
@@ -142,6 +147,20 @@ def test_doubtful_value(case, folder, keys, message):
 def test_sound_values(case, folder, material, rate):
     sound = case | {"materials": {"soil": material | {"objective_rate": rate}}}
     assert load_case(sound, strict=True).warnings == ()
+
+
+@pytest.mark.parametrize(
+    ("keys", "message"),
+    [
+        ({"load_state": True}, 'load_state: the stress of "neo-hookean" follows from its deform'),
+        ({"compatibility": "mpm-geomechanics"}, 'type: MPM-Geomechanics has no "neo-hookean"'),
+    ],
+    ids=["load_state", "compatibility"],
+)
+def test_what_does_not_go_with_a_deformation_gradient(case, folder, keys, message):
+    with pytest.raises(CaseError) as caught:
+        load_case(case | {"materials": {"soil": RUBBER}} | keys)
+    assert any(message in problem for problem in caught.value.problems)
 
 
 def test_tension_without_bound_cannot_soften(case, folder):

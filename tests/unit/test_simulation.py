@@ -135,10 +135,42 @@ def test_assigned_state_is_in_row_order():
     assert not (simulation.solver.sets[1].row == np.arange(64)).all()
 
 
-@pytest.mark.parametrize("key", ["position", "mass", "volume", "displacement", "nothing"])
+@pytest.mark.parametrize("key", ["position", "mass", "volume", "pressure", "nothing"])
 def test_other_fields_cannot_be_assigned(key):
     with pytest.raises(KeyError):
         simulate(two_blocks()).assign(key, np.zeros((96, 3)))
+
+
+def test_a_displaced_state_can_be_assigned():
+    """Positions, volumes, and of a law that keeps F also that and the stress, to the last bit."""
+    case = two_blocks()
+    case["materials"][1]["type"] = "neo-hookean"
+    simulation = simulate(case)
+    random = np.random.default_rng(3)
+    for _ in range(2):
+        displacement = random.uniform(-0.2, 0.2, (96, 3))
+        F = np.eye(3) + random.uniform(-0.2, 0.2, (96, 3, 3))
+        simulation.assign("displacement", displacement)
+        simulation.assign("deformation_gradient", F)
+        assert simulation.field("displacement") == pytest.approx(displacement, abs=1e-15)
+        found = simulation.field("deformation_gradient")
+        assert (found[:64] == F[:64]).all() and not found[64:].any()
+        assert simulation.field("volume") == pytest.approx(np.linalg.det(F) / 64)
+        assert simulation.field("stress")[:64].any(axis=1).all()
+        simulation.step(20)
+        assert simulation.field("active").all()
+
+
+def test_a_state_that_cannot_be_is_refused():
+    case = two_blocks()
+    simulation = simulate(case)
+    F = np.tile(np.eye(3), (96, 1, 1))
+    F[7, 1, 1] = -1.0
+    with pytest.raises(ValueError, match="deformation_gradient: det is -1 in row 7"):
+        simulation.assign("deformation_gradient", F)
+    case["materials"][0]["type"] = "neo-hookean"
+    with pytest.raises(ValueError, match="assign that"):
+        simulate(case).assign("stress", np.zeros((96, 6)))
 
 
 @pytest.mark.parametrize("shape", [(95, 3), (97, 3), (96, 6), (96,), (3,)])

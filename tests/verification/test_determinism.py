@@ -54,6 +54,14 @@ def test_bits_do_not_depend_on_threads(scheme):
     assert np.isfinite(one.field("velocity")).all()
 
 
+def test_bits_of_deformation_gradients_do_not_depend_on_threads():
+    law = {"type": "neo-hookean"}
+    one, two = (crash("USL", threads, water=law, time=0.1).run() for threads in (1, 2))
+    for key in (*FIELDS, "deformation_gradient"):
+        assert (one.field(key) == two.field(key)).all(), key
+    assert np.abs(one.field("deformation_gradient") - np.eye(3)).max() > 0.05
+
+
 @pytest.mark.parametrize("scheme", ["USL", "MUSL"])
 def test_bits_of_two_phases_do_not_depend_on_threads(scheme):
     water = {

@@ -285,3 +285,19 @@ def test_a_tight_piston(scheme):
     assert forces["piston"][2] == pytest.approx((stress - pressure) * area, rel=0.03)
     assert forces["Z0"][2] == pytest.approx((pressure - stress) * area, rel=0.03)
     assert forces["X0"][0] == pytest.approx((pressure - stress / 3) * h * 2.0, rel=0.03)
+
+
+def test_small_strains_of_a_neo_hookean_skeleton_are_those_of_hooke():
+    """A layer that a load presses: stresses, pressures and porosities of both laws, to 1e-4."""
+    found = []
+    for kind in ("elastic", "neo-hookean"):
+        load = {"point_p1": [0, 0, 0.4], "point_p2": [0.1, 0.1, 0.5], "load": [0, 0, -1.0]}
+        case = saturated(
+            [1, 1, 7], 0.1, [cuboid([0, 0, 0], [0.1, 0.1, 0.5])], walls="sliding", time=1.0,
+            load_distributed_box=[load], materials=[SOIL | {"type": kind}],
+        )  # fmt: skip
+        simulation = simulate(case).step(150)
+        found.append([simulation.field(key) for key in ("stress", "pressure", "porosity")])
+    for hooke, rubber in zip(*found, strict=True):
+        np.testing.assert_allclose(rubber, hooke, rtol=0, atol=1e-4 * np.abs(hooke).max())
+    assert np.abs(found[0][0]).max() > 10 and np.abs(found[0][1]).max() > 10

@@ -45,7 +45,7 @@ def _step(case, time_step):
 
 def _gravity(case, position):
     gravity = np.array(case.largest_gravity)
-    laws = {law.type for law in case.materials} - {"elastic"}
+    laws = {law.type for law in case.materials} - {"elastic", "neo-hookean"}
     if not gravity.any():
         if laws and not _moves(case):
             kinds = ", ".join(sorted(laws))

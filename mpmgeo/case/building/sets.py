@@ -5,9 +5,10 @@ from pathlib import Path
 import numpy as np
 
 from mpmgeo.case.building.pressure import bind_pressure
+from mpmgeo.materials.hyperelastic import is_hyperelastic
 from mpmgeo.materials.rotation import ROTATIONS
 from mpmgeo.output.particle_fields import WITH_STRAIN
-from mpmgeo.state.particles import ParticleSet
+from mpmgeo.state.particles import IDENTITY, ParticleSet
 from mpmgeo.state.stress_file import NAME as STRESS_FILE
 from mpmgeo.state.stress_file import read_stress
 
@@ -40,6 +41,7 @@ def particle_sets(case, population, velocity, laws, tool, contact, notes):
                 half=_half_sizes(half, follows, notes),
                 force=None if population.force is None else population.force[rows],
                 state=np.zeros((len(rows), variables)) if variables else None,
+                F=np.tile(IDENTITY, (len(rows), 1)) if is_hyperelastic(symbols) else None,
                 pressure=None if pressure is None else pressure[rows],
                 strain=np.zeros((len(rows), 6)) if strained else None,
                 work=np.zeros((len(rows), 2)) if case.results.energy is not None else None,

@@ -19,9 +19,10 @@ from mpmgeo.state.grid import Grid, Mesh
 TOUCH = 1e-12  # cells by which a particle must reach over a node; less is round-off
 
 
-def build(case):
+def build(case, body_force=None):
     """Return the solver of a case and notes for the user, one sentence each.
 
+    `body_force`: None, or a function (t, X) that returns accelerations, see `effects.body_force`.
     Raises ValueError for a record or geometry that cannot be used.
     """
     notes = []
@@ -51,6 +52,7 @@ def build(case):
         _domains(case),
         _ledger(case),
         in_time(case, population.position),
+        _body_force(case, body_force),
     )
     solver = Solver(
         grid=Grid(mesh, shape.width),
@@ -97,6 +99,17 @@ def _domains(case):
     from mpmgeo.mpm.effects.domains import Domains
 
     return Domains()
+
+
+def _body_force(case, acceleration):
+    """Return what gives the particles a script's body force, None without."""
+    if acceleration is None:
+        return None
+    from mpmgeo.mpm.effects.body_force import BodyForce
+
+    if case.n_phases == 2:
+        raise ValueError("body_force is for one phase; leave it out")
+    return BodyForce(acceleration)
 
 
 def _ledger(case):

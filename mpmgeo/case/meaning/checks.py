@@ -7,6 +7,7 @@ import numpy as np
 from mpmgeo.boundaries.terrain import TerrainContact
 from mpmgeo.case.kinds import containers
 from mpmgeo.case.meaning.bodies import check_bodies, check_materials
+from mpmgeo.case.meaning.deformation import check_deformation
 from mpmgeo.case.meaning.domains import check_domains
 from mpmgeo.case.meaning.phases import check_phases, note_idle
 from mpmgeo.case.meaning.schemes import check_schemes
@@ -29,6 +30,7 @@ def check(draft, report):
     check_steps(draft, report)
     check_schemes(draft, report)
     check_domains(draft, report)
+    check_deformation(draft, report)
     _check_files(draft, report)
     _check_names(draft, report)
     _check_base(draft, report)

@@ -3,9 +3,11 @@
 from numba.extending import overload
 from numba.np.unsafe.ndarray import to_fixed_tuple
 
+from mpmgeo.materials.hyperelastic import energy_of, is_hyperelastic, stress_of
 from mpmgeo.materials.law import update_stress
 from mpmgeo.materials.rotation import rotate_stress
 from mpmgeo.numerics.jit import INLINED, inlined
+from mpmgeo.numerics.matrices import determinant, product, row_of
 from mpmgeo.numerics.simd import add, lane, load_column, load_row, pack, scale, with_velocity
 from mpmgeo.state.particles import column_of_opening
 
@@ -96,18 +98,28 @@ def _compiled_keep_state(law, state, old, new, p):
     return scope["keep"]
 
 
-@inlined
-def advance(law, rotation, strain, spin, V, stress, state, total, work, pressure, p, dt):
+def advance(law, rotation, strain, spin, V, stress, state, total, work, pressure, F, p, dt):
     """Update volume, stress and the law's variables of particle p for a strain increment.
 
     `rotation` None, or the objective rate by which the old stress follows the spin increment;
-    the arrays are those of `ParticleSet.material`, the last three None where they are not kept.
+    the arrays are those of `ParticleSet.material`, the last four None where they are not kept.
     """
+    update = _deform if is_hyperelastic(law) else _strain
+    update(law, rotation, strain, spin, V, stress, state, total, work, pressure, F, p, dt)
+
+
+@overload(advance, jit_options=INLINED)
+def _compiled_advance(
+    law, rotation, strain, spin, V, stress, state, total, work, pressure, F, p, dt
+):
+    return _deform if is_hyperelastic(law.instance_class) else _strain
+
+
+def _strain(law, rotation, strain, spin, V, stress, state, total, work, pressure, F, p, dt):
+    """Add what a strain increment makes to stress and volume."""
+    _sum_up(total, strain, p)
     stretch = 1.0 + (strain[0] + strain[1] + strain[2])
     V[p] *= stretch
-    if total is not None:
-        for a in range(6):
-            total[p, a] += strain[a]
     old = (stress[p, 0], stress[p, 1], stress[p, 2], stress[p, 3], stress[p, 4], stress[p, 5])
     old = rotate_stress(rotation, old, spin)
     variables = _state_of(law, state, p)
@@ -120,6 +132,32 @@ def advance(law, rotation, strain, spin, V, stress, state, total, work, pressure
     if work is not None:
         _account(old, new, strain, V[p], work, p)
         _press(pressure, V, opened, work, p)
+
+
+def _deform(law, rotation, strain, spin, V, stress, state, total, work, pressure, F, p, dt):
+    """Update the deformation gradient, F ← (I + L dt) F; volume and stress follow from it."""
+    _sum_up(total, strain, p)
+    xx, yy, zz, xy, yz, xz = strain
+    a, b, c = spin
+    step = (1.0 + xx, xy + a, xz + c, xy - a, 1.0 + yy, yz + b, xz - c, yz - b, 1.0 + zz)
+    old = row_of(F, p)
+    new = product(step, old)
+    for n in range(9):
+        F[p, n] = new[n]
+    before = V[p]
+    V[p] *= determinant(step)
+    σ = stress_of(law, new)
+    for n in range(6):
+        stress[p, n] = σ[n]
+    if work is not None:
+        work[p, 0] += V[p] * energy_of(law, new) - before * energy_of(law, old)
+
+
+@inlined
+def _sum_up(total, strain, p):
+    if total is not None:
+        for a in range(6):
+            total[p, a] += strain[a]
 
 
 @inlined

@@ -108,12 +108,12 @@ def _moved(work, x, v, value, p):
 @inlined
 def _strained(work, law, here, value, sx, sy, sz, material, p):
     if law is not None:
-        V, stress, m, state, total, account, pressure = material
+        V, stress, m, state, total, account, pressure, F = material
         confine(law, here.mesh, here.x, lane(value, 6), m, V, state, p)
         strain = strain_increment(here.mesh, sx, sy, sz, work.dt)
         spin = spin_increment(here.mesh, sx, sy, sz, work.dt)
         turn, dt = work.rotation, work.dt
-        advance(law, turn, strain, spin, V, stress, state, total, account, pressure, p, dt)
+        advance(law, turn, strain, spin, V, stress, state, total, account, pressure, F, p, dt)
 
 
 class Remap(NamedTuple):

@@ -95,6 +95,10 @@ class LoadsInTime(Effect):
         self.loads = loads
         self._works = None  # of all factors, before a step with a ledger
 
+    def changes(self, name):
+        """Tell whether it changes an array of the sets, `force` or `pull`."""
+        return any(getattr(load, "name", None) == name for load in self.loads)
+
     def join(self, solver):
         """Begin with the forces of the start."""
         self.resumed(solver)
@@ -127,7 +131,7 @@ class LoadsInTime(Effect):
 
     def _change(self, solver):
         """Give the solver the forces of its time, where they are others."""
-        t = solver.time
+        t = solver.load_time
         factors = np.array([course.at(t) for load in self.loads for course in load.courses])
         if self._factors is None or (factors != self._factors).any():
             self._factors = factors

@@ -147,6 +147,25 @@ def test_agree_with_plastic_flow_and_rotation():
         assert (expected > 0).sum() > 100
 
 
+@pytest.mark.parametrize("scheme", SCHEMES)
+def test_agree_with_deformation_gradients(scheme):
+    case = scene(stress_scheme_update=scheme)
+    case["materials"][1]["type"] = "neo-hookean"
+    simulation = mpmgeo.Simulation(mpmgeo.load_case(case))
+    random = np.random.default_rng(7)
+    velocity = simulation.field("velocity")
+    simulation.assign("velocity", velocity + random.uniform(-3, 3, velocity.shape))
+    F = np.eye(3) + random.uniform(-0.01, 0.01, (len(velocity), 3, 3))
+    simulation.assign("deformation_gradient", F)
+    twin = PlainSolver(simulation.solver)
+    assert_same_steps(simulation, twin)
+    found = simulation.field("deformation_gradient").reshape(-1, 9)
+    assert_same(found, twin.gradient, "deformation gradient")
+    kept = found.any(axis=1)
+    assert 0 < kept.sum() < len(kept)
+    assert np.abs(found[kept] - np.eye(3).ravel()).max() > 0.05
+
+
 @pytest.mark.parametrize(
     "keys",
     [

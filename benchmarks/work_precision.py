@@ -1,0 +1,136 @@
+"""Error against run time: problems with exact solutions, in shapes, schemes and refinements.
+
+python benchmarks/work_precision.py [ring vortex …] [--cells 4 8 16] [--combos GIMP:USL …]
+
+A combination is a shape, a scheme and what else `Problem.simulation` takes, keys of the case too,
+as `cubic-bspline:MUSL:particles=3:courant=0.1`. Every run has one thread; what counts is processor
+time, without that of compiling the kernels. A run is on the Pareto front if no other one is both
+faster and more accurate.
+"""
+
+import argparse
+import csv
+import json
+import time
+import warnings
+from math import inf, isfinite
+
+from contest import RESULTS, machine
+
+import mpmgeo
+from mpmgeo.run.watch import Diverged
+from mpmgeo.verify.problems import PROBLEMS
+
+COMBOS = [
+    *("GIMP:USL", "GIMP:MUSL", "quadratic-bspline:USL", "quadratic-bspline:MUSL"),
+    *("cubic-bspline:USL", "cubic-bspline:MUSL", "linear:MUSL"),
+]
+CELLS = [4, 8, 16]
+COLUMNS = ("problem", "combination", "cells", "particles", "steps", "seconds", "error", "front")
+
+
+def choices(combo):
+    """Return what a combination says as arguments of `Problem.simulation`."""
+    shape, scheme, *others = combo.split(":")
+    return {"shape": shape, "scheme": scheme} | dict(map(_pair, others))
+
+
+def _pair(text):
+    key, _, value = text.partition("=")
+    try:
+        return key, json.loads(value)
+    except json.JSONDecodeError:
+        return key, value
+
+
+def measure(problem, cells, combo):
+    """Return particles, steps, processor seconds and error of a run, infinite if it diverges."""
+    simulation = problem.simulation(cells, n_threads=1, **choices(combo))
+    start = time.process_time()
+    try:
+        simulation.run()
+        error = problem.error(simulation)
+    except Diverged:
+        error = inf
+    return simulation.solver.count, simulation.steps, time.process_time() - start, error
+
+
+def front(runs):
+    """Return which of the runs, pairs of seconds and error, are on the Pareto front."""
+    return [
+        isfinite(error) and not any(s < seconds and e < error for s, e in runs)
+        for seconds, error in runs
+    ]
+
+
+def race(name, refinements, combos):
+    """Return a row of COLUMNS for every run of a problem; prints them as they come."""
+    problem, rows = PROBLEMS[name](), []
+    for combo in combos:
+        problem.simulation(min(refinements), n_threads=1, **choices(combo)).step(2)
+        for cells in refinements:
+            rows.append((name, combo, cells, *measure(problem, cells, combo)))
+            *_, seconds, error = rows[-1]
+            print(f"{name:16} {combo:32} {cells:4} {seconds:9.2f} s {error:10.3e}", flush=True)
+    return [
+        (*row, int(best)) for row, best in zip(rows, front([r[-2:] for r in rows]), strict=True)
+    ]
+
+
+def draw(name, rows):
+    """Draw error against seconds, a line for every combination, and the Pareto front."""
+    import matplotlib
+
+    matplotlib.use("agg")
+    import matplotlib.pyplot as plt
+
+    figure, axes = plt.subplots(figsize=(7, 5), layout="constrained")
+    for combo in dict.fromkeys(row[1] for row in rows):
+        line = [row[5:7] for row in rows if row[1] == combo and isfinite(row[6])]
+        if line:
+            axes.plot(*zip(*line, strict=True), "o-", markersize=4, linewidth=1, label=combo)
+    best = sorted(row[5:7] for row in rows if row[7])
+    if best:
+        label = "Pareto front"
+        axes.plot(
+            *zip(*best, strict=True), "k--", marker="o", markersize=9, fillstyle="none", label=label
+        )
+    axes.set(xscale="log", yscale="log", xlabel="processor time [s]", ylabel="error", title=name)
+    axes.grid(True, which="both", linewidth=0.3)
+    axes.legend(fontsize=7)
+    path = RESULTS / f"work_precision_{name}.png"
+    figure.savefig(path, dpi=110)
+    plt.close(figure)
+    print(f"drawn in {path}")
+
+
+def write(name, rows):
+    """Write the rows of a problem as csv."""
+    path = RESULTS / f"work_precision_{name}.csv"
+    with path.open("w", newline="", encoding="utf-8") as file:
+        file.write(f"# {machine()}\n")
+        lines = csv.writer(file, lineterminator="\n")
+        lines.writerow(COLUMNS)
+        lines.writerows((*row[:5], f"{row[5]:.3f}", f"{row[6]:.4e}", row[7]) for row in rows)
+    print(f"written to {path}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("problems", nargs="*", help=f"of {', '.join(PROBLEMS)}; without: all")
+    parser.add_argument("--cells", type=int, nargs="+", default=CELLS)
+    parser.add_argument("--combos", nargs="+", default=COMBOS, metavar="SHAPE:SCHEME[:KEY=VALUE]")
+    arguments = parser.parse_args()
+    unknown = set(arguments.problems) - set(PROBLEMS)
+    if unknown:
+        parser.error(f"there is no problem {min(unknown)}; there are {', '.join(PROBLEMS)}")
+    for name in arguments.problems or PROBLEMS:
+        rows = race(name, arguments.cells, arguments.combos)
+        RESULTS.mkdir(exist_ok=True)
+        write(name, rows)
+        draw(name, rows)
+
+
+if __name__ == "__main__":
+    warnings.simplefilter("ignore", mpmgeo.CaseWarning)
+    main()
