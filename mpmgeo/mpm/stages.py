@@ -6,7 +6,7 @@ A stage does its own work for all particles or nodes, and lets the effects do th
 import numba
 
 from mpmgeo.mpm.core.loops import over_nodes, over_particles
-from mpmgeo.mpm.core.transfer import Gather, Remap, Scatter, StrainAndForce
+from mpmgeo.mpm.core.transfer import Force, Gather, Remap, Scatter, Strain, StrainAndForce
 from mpmgeo.numerics.chunks import ALONE, crew_of
 
 
@@ -53,7 +53,8 @@ class Stages(Loops):
         for s in self.sets:
             work = Scatter(self.gravity, 0.0 if s.tool is None else 1.0)
             stress, pressure = (s.stress, s.pressure) if internal else (None, None)
-            arrays = (s.v, s.m, s.V, stress, pressure, s.force)
+            means = self.mean_stresses(s) if internal else None
+            arrays = (s.v, s.m, s.V, stress, pressure, s.force, means)
             self.over_particles(work, s, arrays, None, None, fresh)
             fresh = False
         self.clock.lap("scatter")
@@ -80,7 +81,8 @@ class Stages(Loops):
         nodes, step = self.grid.nodes, 0.0 if h is None else h
         for s in self.sets:
             work = Gather(s.law if stress else None, s.rotation, self.time_step, step)
-            arrays = (None if h is None else s.v, s.material)
+            means = self.mean_divergences(s) if stress else None
+            arrays = (None if h is None else s.v, s.material, means)
             self.gone += self.over_particles(work, s, arrays, None, nodes)
         self.clock.lap("gather")
         for act in self.asked["after_gather"]:
@@ -100,7 +102,24 @@ class Stages(Loops):
         """Update stress with the nodal velocities, add the internal force to the tiles."""
         grid = self.grid
         for s in self.sets:
-            work = StrainAndForce(s.law, s.rotation, self.time_step)
-            arrays = (s.pressure, s.material)
-            self.over_particles(work, s, arrays, (grid.tiles,), grid.nodes)
+            if self.cells is None:
+                work = StrainAndForce(s.law, s.rotation, self.time_step)
+                arrays = (s.pressure, s.material)
+                self.over_particles(work, s, arrays, (grid.tiles,), grid.nodes)
+            else:
+                work = Strain(s.law, s.rotation, self.time_step)
+                arrays = (s.material, self.mean_divergences(s))
+                self.over_particles(work, s, arrays, None, grid.nodes)
+                arrays = (s.V, s.stress, s.pressure, self.mean_stresses(s))
+                self.over_particles(Force(), s, arrays, (grid.tiles,))
         self.clock.lap("strain and force")
+
+    def mean_stresses(self, s):
+        """Return the mean stresses of the cells, None if particles do not share them."""
+        import os
+        if os.environ.get("FBAR"): return None
+        return None if self.cells is None else self.cells.of_stress(self, s)
+
+    def mean_divergences(self, s):
+        """Return the mean divergences of the cells, None if particles do not share them."""
+        return None if self.cells is None else self.cells.of_divergence(self, s)

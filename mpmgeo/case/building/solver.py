@@ -11,6 +11,7 @@ from mpmgeo.case.building.time_step import time_step
 from mpmgeo.case.coordinates import in_mesh
 from mpmgeo.damping import LocalDamping
 from mpmgeo.loads import LOADS
+from mpmgeo.mpm.locking import CellMeans
 from mpmgeo.mpm.schemes import SCHEMES
 from mpmgeo.mpm.solver import Solver
 from mpmgeo.shapes import AS_MPM_GEOMECHANICS, SHAPES
@@ -65,6 +66,7 @@ def build(case):
         early_damping=early,
         leaky=legacy,
         cutoff=0.0 if legacy else TOUCH**shape.edge * lightest,
+        cells=None if case.volumetric_locking == "off" else CellMeans(),
     )
     return solver, notes
 

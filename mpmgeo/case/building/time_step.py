@@ -47,6 +47,8 @@ def stable_time_step(case, solver, velocity):
     for s in solver.sets:
         law, half = laws[solver.population.material[s.row[0]]], np.atleast_2d(s.half).min(axis=0)
         slopes = stability.slopes(solver.shape, filtered, half, case.mesh.cells_dimension)
+        if case.volumetric_locking != "off":
+            slopes = slopes._replace(divergence=slopes.mean_divergence)
         two = case.n_phases == 2
         wave = saturation.wave_speed(law) if two else law.sound_speed()
         step = (_of_two_phases if two else _of_one_phase)(case, law, slopes, filtered)
