@@ -203,9 +203,7 @@ class Settings:
         "Interpolation between particles and grid", choices=tuple(SHAPES), default="GIMP"
     )
     volumetric_locking: str = parameter(
-        "What is done against it: nothing, or the particles of a cell share their volume strain",
-        choices=("off", "cells"),
-        default="off",
+        "Cure of it, by the mean volume strain of cells", choices=("off", "cells"), default="off"
     )
     n_phases: int = parameter(
         "Number of phases: the solid alone, or with a fluid in its pores",

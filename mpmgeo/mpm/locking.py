@@ -1,4 +1,4 @@
-"""Means of cells for the stages of a solver whose particles share their volumetric strain."""
+"""Means of cells for the stages of a solver whose particles share volume strain and pressure."""
 
 from mpmgeo.mpm.core.cells import Average
 from mpmgeo.mpm.core.locking import MEAN, SumDivergence, SumMeanStress

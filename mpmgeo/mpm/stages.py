@@ -100,26 +100,22 @@ class Stages(Loops):
 
     def strain_and_force(self):
         """Update stress with the nodal velocities, add the internal force to the tiles."""
-        grid = self.grid
+        tiles, nodes = (self.grid.tiles,), self.grid.nodes
         for s in self.sets:
             if self.cells is None:
                 work = StrainAndForce(s.law, s.rotation, self.time_step)
-                arrays = (s.pressure, s.material)
-                self.over_particles(work, s, arrays, (grid.tiles,), grid.nodes)
-            else:
-                work = Strain(s.law, s.rotation, self.time_step)
-                arrays = (s.material, self.mean_divergences(s))
-                self.over_particles(work, s, arrays, None, grid.nodes)
-                arrays = (s.V, s.stress, s.pressure, self.mean_stresses(s))
-                self.over_particles(Force(), s, arrays, (grid.tiles,))
+                self.over_particles(work, s, (s.pressure, s.material), tiles, nodes)
+                continue
+            work = Strain(s.law, s.rotation, self.time_step)
+            self.over_particles(work, s, (s.material, self.mean_divergences(s)), None, nodes)
+            arrays = (s.V, s.stress, s.pressure, self.mean_stresses(s))
+            self.over_particles(Force(), s, arrays, tiles)
         self.clock.lap("strain and force")
 
     def mean_stresses(self, s):
-        """Return the mean stresses of the cells, None if particles do not share them."""
-        import os
-        if os.environ.get("FBAR"): return None
+        """Return the mean stresses of cells for set `s`, None if its particles share nothing."""
         return None if self.cells is None else self.cells.of_stress(self, s)
 
     def mean_divergences(self, s):
-        """Return the mean divergences of the cells, None if particles do not share them."""
+        """Return the mean divergences of cells for set `s`, None if its particles share nothing."""
         return None if self.cells is None else self.cells.of_divergence(self, s)

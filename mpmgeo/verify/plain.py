@@ -133,11 +133,11 @@ def held(free, n, a):
 def gather(shape, box, law, rotation, rows, half, x, v, own, nodes, A, drift, dt, h):
     """Change v by the nodal A, move x with `drift`, strain with U; what is None is left out.
 
-    `law` None: no strain; `own`: masses or None, volumes, stresses, variables of the law;
-    `nodes`: M and U.
+    `law` None: no strain; `own`: masses or None, volumes, stresses, variables of the law, given
+    divergences or None; `nodes`: M and U.
     """
     S = width(shape)
-    m, V, stress, state = own
+    m, V, stress, state, θ = own
     M, U = nodes
     for p in rows:
         I, wx = stencil_along(0, shape, box, half, x, p)
@@ -161,10 +161,20 @@ def gather(shape, box, law, rotation, rows, half, x, v, own, nodes, A, drift, dt
                         mass += w * M[n]
         if law is not None:
             confine(law, box.mesh, x, mass, m, V, state, p)
+            dx, dy, dz = with_divergence(θ, dx, dy, dz, p)
             strain(law, rotation, dx, dy, dz, V, stress, state, p, dt)
         for c in range(3):
             v[p, c] += h * a[c]
             x[p, c] += dt * u[c]
+
+
+@inlined
+def with_divergence(θ, dx, dy, dz, p):
+    """Return the columns of a velocity gradient with a given trace, if there is one."""
+    if θ is None:
+        return dx, dy, dz
+    d = (θ[p] - (dx[0] + dy[1] + dz[2])) / 3.0
+    return plus(dx, d, (1.0, 0.0, 0.0)), plus(dy, d, (0.0, 1.0, 0.0)), plus(dz, d, (0.0, 0.0, 1.0))
 
 
 @inlined
@@ -200,6 +210,8 @@ class PlainSolver:
     def __init__(self, solver):
         if solver.effects or solver.early_damping or len(solver.damping) > 1:
             raise ValueError("the plain solver has gravity, box loads and local damping only")
+        if solver.cells is not None and type(self) is PlainSolver:
+            raise ValueError("the plain solver shares no strain in cells; PlainSharing does")
         self.shape, self.time_step, self.steps = solver.shape, solver.time_step, solver.steps
         self.local = solver.damping[0].α if solver.damping else None
         self.cutoff = solver.cutoff
@@ -270,13 +282,16 @@ class PlainSolver:
                 *(self.V, self.stress, self.pressure, self.force, M, P, F),
             )
 
+    def _divergence(self, rows):
+        """Return the divergences that strains are to have, None for those of the particles."""
+
     def _update_nodes(self, h, F):
         update_nodes(h, self.local, self.cutoff, self.free, self.M, self.P, F, self.U, self.A)
 
     def _gather(self, h, A, drift, strains=False):
         for (law, rotation, rows), state in zip(self.sets, self.state, strict=True):
             m = self.m if getattr(law, "GRAINS", False) else None
-            own = m, self.V, self.stress, state
+            own = m, self.V, self.stress, state, self._divergence(rows) if strains else None
             gather(
                 *(self.shape, self.box, law if strains else None, rotation, rows, self.half),
                 *(self.x, self.v, own, (self.M, self.U), A, drift, self.time_step, h),

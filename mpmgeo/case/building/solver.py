@@ -66,7 +66,7 @@ def build(case):
         early_damping=early,
         leaky=legacy,
         cutoff=0.0 if legacy else TOUCH**shape.edge * lightest,
-        cells=None if case.volumetric_locking == "off" else CellMeans(),
+        cells=CellMeans() if case.volumetric_locking == "cells" else None,
     )
     return solver, notes
 

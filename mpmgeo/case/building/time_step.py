@@ -47,8 +47,6 @@ def stable_time_step(case, solver, velocity):
     for s in solver.sets:
         law, half = laws[solver.population.material[s.row[0]]], np.atleast_2d(s.half).min(axis=0)
         slopes = stability.slopes(solver.shape, filtered, half, case.mesh.cells_dimension)
-        if case.volumetric_locking != "off":
-            slopes = slopes._replace(divergence=slopes.mean_divergence)
         two = case.n_phases == 2
         wave = saturation.wave_speed(law) if two else law.sound_speed()
         step = (_of_two_phases if two else _of_one_phase)(case, law, slopes, filtered)
@@ -57,7 +55,7 @@ def stable_time_step(case, solver, velocity):
 
 
 def _of_one_phase(case, law, slopes, filtered):
-    stiffness, viscosity = law.resistance(slopes)
+    stiffness, viscosity = law.resistance(slopes, case.volumetric_locking == "cells")
     return stability.stable_time_step(stiffness / law.density, viscosity / law.density, filtered)
 
 
@@ -65,8 +63,9 @@ def _of_two_phases(case, law, slopes, filtered):
     """Return the step [s] with the drag of a shorter one, the one without drag."""
     decay = law.resistance(slopes)[1] / saturation.densities(law)[0]
     rate, step = saturation.drag_rate(law, case.conductivity_gravity), 0.0
+    shares = case.pore_pressure_smoothing, case.volumetric_locking == "cells"
     for _ in range(2):
-        ω2 = saturation.frequency(law, slopes, case.pore_pressure_smoothing, rate * step)
+        ω2 = saturation.frequency(law, slopes, *shares, rate * step)
         step = stability.stable_time_step(ω2, decay, filtered)
     return step
 

@@ -54,5 +54,5 @@ class Average(NamedTuple):
 @at_node.register(Average)
 def average(work, node, a):
     r = load(node.sums, node.at)
-    if lane(r, 0) > 0.0:
+    if lane(r, 0) != 0.0:
         a[0][node.number * LANES + work.lane] = lane(r, 1) / lane(r, 0)

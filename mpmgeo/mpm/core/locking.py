@@ -14,7 +14,7 @@ from typing import NamedTuple
 from mpmgeo.mpm.core.cells import add_to_cell, mean_of_cell
 from mpmgeo.mpm.core.loops import visit
 from mpmgeo.mpm.core.point import divergence
-from mpmgeo.mpm.core.tile import collect, locate
+from mpmgeo.mpm.core.tile import collect_diagonal, locate
 from mpmgeo.numerics.jit import inlined
 from mpmgeo.numerics.simd import add, pack4
 
@@ -96,6 +96,6 @@ class SumDivergence(NamedTuple):
 @visit.register(SumDivergence)
 def sum_divergence(work, here, a, p):
     n, wx, wy, wz = locate(here, p)
-    _, sx, sy, sz = collect(here.source, n, here.rows, wx, wy, wz)
-    add_to_cell(here, p, a[0][p], divergence(here.mesh, sx, sy, sz))
+    s = collect_diagonal(here.source, n, here.rows, wx, wy, wz)
+    add_to_cell(here, p, a[0][p], divergence(here.mesh, s, s, s))
     return 0
