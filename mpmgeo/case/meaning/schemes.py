@@ -1,4 +1,4 @@
-"""Schemes and shapes that do not go together, and shapes that the compatibility switch lacks."""
+"""Schemes and shapes that do not go together, and what the compatibility switch lacks of them."""
 
 from mpmgeo.shapes import AS_MPM_GEOMECHANICS, SHAPES
 from mpmgeo.values import shown
@@ -21,3 +21,6 @@ def check_schemes(draft, report):
         words = ", ".join(map(shown, AS_MPM_GEOMECHANICS))
         message = f"MPM-Geomechanics has no {shown(shape)}; accepted with compatibility: {words}"
         report.error(("shape_function",), message)
+    if case.get("volumetric_locking") == "cells" and case.get("compatibility") is not None:
+        message = "MPM-Geomechanics knows no cure of locking; leave it or compatibility out"
+        report.error(("volumetric_locking",), message)
