@@ -14,6 +14,7 @@ CHOICES = {
     "shape_function linear": {"shape_function": "linear"},
     "stress_scheme_update MUSL": {"stress_scheme_update": "MUSL"},
     "stress_scheme_update USF": {"stress_scheme_update": "USF"},
+    "volumetric_locking cells": {"volumetric_locking": "cells"},
     "damping local": {"damping": {"type": "local", "value": 0.1}},
     "damping kinetic": {"damping": {"type": "kinetic"}},
     "load_distributed_box": {"load_distributed_box": [LOAD]},

@@ -30,3 +30,6 @@ class Method:
         choices=("initial", "updated"),
         default="initial",
     )
+    volumetric_locking: str = parameter(
+        "Cure of it, by the mean volume strain of cells", choices=("off", "cells"), default="off"
+    )

@@ -64,10 +64,14 @@ class Law:
         """Return what limits the time step: of a law that does not say, as if it were a fluid."""
         return Moduli(self.density * self.sound_speed() ** 2, 0.0)
 
-    def resistance(self, slopes) -> tuple[float, float]:
-        """Return ω² ρ [Pa/m²] and d ρ [Pa s/m²] of motions with the `slopes` of `mpm.stability`."""
+    def resistance(self, slopes, shared=False) -> tuple[float, float]:
+        """Return ω² ρ [Pa/m²] and d ρ [Pa s/m²] of motions with the `slopes` of `mpm.stability`.
+
+        `shared`: whether the particles of a cell share their volume strain.
+        """
         λ, G2, η = self.moduli
-        return max(λ, 0.0) * slopes.divergence + G2 * slopes.gradient, 2 * η * slopes.deviator
+        Σ = slopes.mean_divergence if shared else slopes.divergence
+        return max(λ, 0.0) * Σ + G2 * slopes.gradient, 2 * η * slopes.deviator
 
     def critical_time_step(self, cell: float, speed: float) -> float:
         """Return the time [s] of a wave across a `cell` [m], particles moving at `speed` [m/s]."""

@@ -46,14 +46,15 @@ def wave_speed(law) -> float:
     return sqrt(_fastest(law, law.density * law.sound_speed() ** 2, law.bulk_fluid))
 
 
-def frequency(law, slopes, smooth: bool, drag: float = 0.0) -> float:
+def frequency(law, slopes, smooth: bool, shared: bool = False, drag: float = 0.0) -> float:
     """Return ω² [1/s²] of motions with the `slopes` of `mpm.stability`, K Σ in the place of K.
 
-    `smooth`: whether the particles of a cell share their pressure; `drag`: rate of the drag times
-    the step, which divides accelerations of the phases against each other by 1 + drag.
+    `smooth`, `shared`: whether the particles of a cell share their pressure, their volume strain;
+    `drag`: rate of the drag times the step, which divides accelerations of the phases against each
+    other by 1 + drag.
     """
     Σ = slopes.mean_divergence if smooth else slopes.divergence
-    return _fastest(law, law.resistance(slopes)[0], law.bulk_fluid * Σ, 1 / (1 + drag))
+    return _fastest(law, law.resistance(slopes, shared)[0], law.bulk_fluid * Σ, 1 / (1 + drag))
 
 
 def drag_rate(law, gravity: float) -> float:

@@ -12,6 +12,7 @@ from mpmgeo.effect import HOOKS, Effect
 from mpmgeo.formulation import Energies
 from mpmgeo.materials.law import stores_energy
 from mpmgeo.mpm.incidents import Departures, Unsound
+from mpmgeo.mpm.locking import CellMeans
 from mpmgeo.mpm.newmark import Newmark
 from mpmgeo.mpm.persistence import copy_of, state_of, take_over
 from mpmgeo.mpm.schemes import first_step
@@ -50,6 +51,7 @@ class Solver(Stages):
     early_damping: object = None  # one that acts as in MPM-Geomechanics
     leaky: bool = False  # whether particles may pass planes that hold, as in MPM-Geomechanics
     cutoff: float = 0.0  # [kg] nodal mass up to which forces do not move a node
+    cells: CellMeans | None = None  # of strain and stress, if the particles of a cell share them
 
     time: float = 0.0
     steps: int = 0

@@ -7,7 +7,7 @@ import numba
 
 from mpmgeo.mpm.core.loops import over_nodes, over_particles
 from mpmgeo.mpm.core.newmark import Correct, Predict
-from mpmgeo.mpm.core.transfer import Gather, Remap, Scatter, StrainAndForce
+from mpmgeo.mpm.core.transfer import Force, Gather, Remap, Scatter, Strain, StrainAndForce
 from mpmgeo.numerics.chunks import ALONE, crew_of
 
 
@@ -54,7 +54,8 @@ class Stages(Loops):
         for s in self.sets:
             work = Scatter(self.gravity, 0.0 if s.tool is None else 1.0)
             stress, pressure = (s.stress, s.pressure) if internal else (None, None)
-            arrays = (s.v, s.m, s.V, stress, pressure, s.force)
+            means = self.mean_stresses(s) if internal else None
+            arrays = (s.v, s.m, s.V, stress, pressure, s.force, means)
             self.over_particles(work, s, arrays, None, None, fresh)
             fresh = False
         self.clock.lap("scatter")
@@ -88,7 +89,8 @@ class Stages(Loops):
         nodes, step = self.grid.nodes, 0.0 if h is None else h
         for s in self.sets:
             work = Gather(s.law if stress else None, s.rotation, self.time_step, step)
-            arrays = (None if h is None else s.v, s.material, s.follower)
+            means = self.mean_divergences(s) if stress else None
+            arrays = (None if h is None else s.v, s.material, s.follower, means)
             self.gone += self.over_particles(work, s, arrays, None, nodes)
         self.clock.lap("gather")
         for act in self.asked["after_gather"]:
@@ -120,9 +122,22 @@ class Stages(Loops):
 
     def strain_and_force(self):
         """Update stress with the nodal velocities, add the internal force to the tiles."""
-        grid = self.grid
+        tiles, nodes = (self.grid.tiles,), self.grid.nodes
         for s in self.sets:
-            work = StrainAndForce(s.law, s.rotation, self.time_step)
-            arrays = (s.pressure, s.material)
-            self.over_particles(work, s, arrays, (grid.tiles,), grid.nodes)
+            if self.cells is None:
+                work = StrainAndForce(s.law, s.rotation, self.time_step)
+                self.over_particles(work, s, (s.pressure, s.material), tiles, nodes)
+                continue
+            work = Strain(s.law, s.rotation, self.time_step)
+            self.over_particles(work, s, (s.material, self.mean_divergences(s)), None, nodes)
+            arrays = (s.V, s.stress, s.pressure, self.mean_stresses(s))
+            self.over_particles(Force(), s, arrays, tiles)
         self.clock.lap("strain and force")
+
+    def mean_stresses(self, s):
+        """Return the mean stresses of cells for set `s`, None if its particles share nothing."""
+        return None if self.cells is None else self.cells.of_stress(self, s)
+
+    def mean_divergences(self, s):
+        """Return the mean divergences of cells for set `s`, None if its particles share nothing."""
+        return None if self.cells is None else self.cells.of_divergence(self, s)

@@ -12,7 +12,8 @@ import numpy as np
 from mpmgeo.mpm.core.domain import MOST
 from mpmgeo.numerics.jit import compiled, inlined
 from mpmgeo.shapes.shape import width
-from mpmgeo.verify.plain import PlainSolver, slopes, stencil_along
+from mpmgeo.verify.plain import PlainSolver
+from mpmgeo.verify.plain_transfers import slopes, stencil_along
 
 
 @inlined

@@ -99,6 +99,7 @@ WET = {
 HELD = ("damping", "compatibility")  # keys with which no particle leaves the mesh
 OLD = {"compatibility": "mpm-geomechanics"}
 LOCAL = {"damping": {"type": "local", "value": 0.3}}
+SHARED = {"volumetric_locking": "cells", "materials": [PLASTIC, ELASTIC]}
 KINETIC = {"damping": {"type": "kinetic"}}
 ENERGY = {"results": {"print": 7, "energy": {"every": 3}}}
 GROWING = {"ramp": {"type": "sine", "duration": 0.12}}
@@ -124,6 +125,8 @@ CASES = {
     "local damping": LOCAL,
     "local damping in the old form": LOCAL | OLD,
     "local damping in the old form, MUSL": LOCAL | OLD | {"stress_scheme_update": "MUSL"},
+    "shared cells": SHARED,
+    "shared cells, USF": SHARED | {"stress_scheme_update": "USF"},
     "earthquake": SHAKEN,
     "earthquake in the old form": SHAKEN | OLD,
     "earthquake in the old form, MUSL": SHAKEN | OLD | {"stress_scheme_update": "MUSL"},

@@ -37,9 +37,10 @@ def crash(scheme, threads, water=None, **keys):
     return simulate(case, threads=threads)
 
 
+@pytest.mark.parametrize("locking", ["off", "cells"])
 @SCHEMES
-def test_bits_do_not_depend_on_threads(scheme):
-    one, two = (crash(scheme, threads).run() for threads in (1, 2))
+def test_bits_do_not_depend_on_threads(scheme, locking):
+    one, two = (crash(scheme, n, volumetric_locking=locking).run() for n in (1, 2))
     assert one.threads == 1 and two.threads == 2 and not one.solver.small
     assert one.steps == two.steps == 200
     for key in FIELDS:

@@ -12,10 +12,11 @@ def momentum(simulation):
 
 
 # Nodes of the linear shape with next to no mass take absurd velocities in a crash; MUSL heals it.
+@pytest.mark.parametrize("locking", ["off", "cells"])
 @pytest.mark.parametrize(
     ("scheme", "shape"), [("USL", "GIMP"), ("MUSL", "GIMP"), ("USF", "GIMP"), ("MUSL", "linear")]
 )
-def test_momentum_of_colliding_spheres(scheme, shape):
+def test_momentum_of_colliding_spheres(scheme, shape, locking):
     """Two spheres hit each other off centre; 1e-12 of the momentum that flies about."""
     case = scene(
         [16, 12, 12],
@@ -28,6 +29,7 @@ def test_momentum_of_colliding_spheres(scheme, shape):
         critical_time_step_multiplier=0.3,
         stress_scheme_update=scheme,
         shape_function=shape,
+        volumetric_locking=locking,
     )
     simulation = simulate(case)
     before = momentum(simulation)

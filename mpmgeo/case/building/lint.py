@@ -6,6 +6,7 @@ from functools import partial
 import numpy as np
 
 from mpmgeo.case.building.limits import limits
+from mpmgeo.case.building.locking import locking
 from mpmgeo.case.building.overlap import overlaps
 from mpmgeo.case.building.proportions import out_of_proportion
 from mpmgeo.case.coordinates import in_mesh
@@ -43,6 +44,7 @@ def lint(simulation) -> list[str]:
         *_terrain(case),
         *_record(case, simulation.time_step),
         *limits(case),
+        *locking(case, position, partial(simulation.field, "material")),
         *out_of_proportion(case, position, body, simulation.time_step),
         *overlaps(case, position, body, partial(simulation.field, "mass")),
     ]

@@ -11,6 +11,7 @@ from mpmgeo.case.building.time_step import time_step
 from mpmgeo.case.coordinates import in_mesh
 from mpmgeo.damping import LocalDamping
 from mpmgeo.loads import LOADS
+from mpmgeo.mpm.locking import CellMeans
 from mpmgeo.mpm.schemes import scheme_of
 from mpmgeo.mpm.solver import Solver
 from mpmgeo.shapes import AS_MPM_GEOMECHANICS, shape_of
@@ -68,6 +69,7 @@ def build(case, body_force=None):
         early_damping=early,
         leaky=legacy,
         cutoff=0.0 if legacy else TOUCH**shape.edge * lightest,
+        cells=CellMeans() if case.volumetric_locking == "cells" else None,
     )
     return solver, notes
 

@@ -55,7 +55,7 @@ def stable_time_step(case, solver, velocity):
 
 
 def _of_one_phase(case, law, slopes, n):
-    stiffness, viscosity = law.resistance(slopes)
+    stiffness, viscosity = law.resistance(slopes, case.volumetric_locking == "cells")
     return stability.stable_time_step(stiffness / law.density, viscosity / law.density, n)
 
 
@@ -63,8 +63,9 @@ def _of_two_phases(case, law, slopes, n):
     """Return the step [s] with the drag of a shorter one, the one without drag."""
     decay = law.resistance(slopes)[1] / saturation.densities(law)[0]
     rate, step = saturation.drag_rate(law, case.conductivity_gravity), 0.0
+    shares = case.pore_pressure_smoothing, case.volumetric_locking == "cells"
     for _ in range(2):
-        ω2 = saturation.frequency(law, slopes, case.pore_pressure_smoothing, rate * step)
+        ω2 = saturation.frequency(law, slopes, *shares, rate * step)
         step = stability.stable_time_step(ω2, decay, n)
     return step
 

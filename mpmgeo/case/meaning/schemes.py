@@ -1,4 +1,4 @@
-"""Schemes and shapes that do not go together, and those that the compatibility switch lacks."""
+"""Schemes and shapes that do not go together, and what the compatibility switch lacks of them."""
 
 from mpmgeo import shapes
 from mpmgeo.mpm import schemes
@@ -29,6 +29,9 @@ def check_schemes(draft, report):
     if case.get("compatibility") is not None:
         for key, known in KNOWN.items():
             _check_compatible(key, case.get(key), known.AS_MPM_GEOMECHANICS, report)
+        if case.get("volumetric_locking") == "cells":
+            message = "MPM-Geomechanics knows no cure of locking; leave it or compatibility out"
+            report.error(("volumetric_locking",), message)
     _check_newmark(draft, scheme, report)
     for key, (choice, words) in NUMBERS.items():
         for numbers in draft.of(key):

@@ -19,18 +19,17 @@ def momentum_and_weight(m, v, weight, p):
 
 
 @inlined
-def internal_force(mesh, V, stress, pressure, p):
+def internal_force(mesh, V, stress, added, p):
     """Return −V σ by columns, in the force lanes of three records, for slopes per cell.
 
-    `pressure` None, or pore pressure: σ is then the total stress, the effective one less pressure.
+    `added` None, or what σ has in its normal components [Pa] beside the effective stress.
     """
     q = -V[p]
     X, Y, Z = load_column(stress, p, 0), load_column(stress, p, 1), load_column(stress, p, 2)
-    if pressure is not None:
-        u = -pressure[p]
-        X = add(X, pack(0.0, 0.0, 0.0, 0.0, u, 0.0, 0.0, 0.0))
-        Y = add(Y, pack(0.0, 0.0, 0.0, 0.0, 0.0, u, 0.0, 0.0))
-        Z = add(Z, pack(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, u, 0.0))
+    if added is not None:
+        X = add(X, pack(0.0, 0.0, 0.0, 0.0, added, 0.0, 0.0, 0.0))
+        Y = add(Y, pack(0.0, 0.0, 0.0, 0.0, 0.0, added, 0.0, 0.0))
+        Z = add(Z, pack(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, added, 0.0))
     return scale(q * mesh.ix, X), scale(q * mesh.iy, Y), scale(q * mesh.iz, Z)
 
 
@@ -46,6 +45,12 @@ def strain_increment(mesh, sx, sy, sz, dt):
         0.5 * (lane(sy, 2) * ty + lane(sz, 1) * tz),
         0.5 * (lane(sx, 2) * tx + lane(sz, 0) * tz),
     )
+
+
+@inlined
+def divergence(mesh, sx, sy, sz):
+    """Return the divergence [1/s] of a velocity, from the slopes per cell of the node records."""
+    return mesh.ix * lane(sx, 0) + mesh.iy * lane(sy, 1) + mesh.iz * lane(sz, 2)
 
 
 @inlined

@@ -217,6 +217,26 @@ def collect(tile, n0, row, wx, wy, wz):
 
 
 @inlined
+def collect_diagonal(tile, n0, row, wx, wy, wz):
+    """Return Σ ∂S/∂x r, Σ ∂S/∂y r, Σ ∂S/∂z r of the first, second, third lane of the records r.
+
+    They are the lanes of one vector, which has one product for each node.
+    """
+    I, J, K = len(wx) // 2, len(wy) // 2, len(wz) // 2
+    value = pack4(0.0, 0.0, 0.0, 0.0)
+    for i in range(I):
+        a = pack4(0.0, 0.0, 0.0, 0.0)
+        for j in range(J):
+            n = n0 + place(row, i, j, 0) * LANES
+            b = pack4(0.0, 0.0, 0.0, 0.0)
+            for k in range(K):
+                b = b + pack4(wz[k], wz[k], wz[K + k], 0.0) * quarter(load(tile, n + k * LANES), 0)
+            a = a + pack4(wy[j], wy[J + j], wy[j], 0.0) * b
+        value = value + pack4(wx[I + i], wx[i], wx[i], 0.0) * a
+    return value
+
+
+@inlined
 def collect_value(tile, n0, row, wx, wy, wz):
     """Return Σ S r over the node records r from n0 on."""
     value = splat(0.0)

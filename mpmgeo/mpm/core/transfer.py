@@ -7,6 +7,7 @@ part of m that touches the ground.
 from typing import NamedTuple
 
 from mpmgeo.mpm.core.domain import deform, moved_with_corners
+from mpmgeo.mpm.core.locking import beside_effective_stress, with_mean_divergence
 from mpmgeo.mpm.core.loops import visit
 from mpmgeo.mpm.core.opening import confine
 from mpmgeo.mpm.core.point import (
@@ -32,7 +33,7 @@ class Scatter(NamedTuple):
     """Add mass, momentum and force to the tiles.
 
     Arrays: v, m, V, stress, or None to leave out the internal force, pressure of a pore fluid or
-    None, load beside gravity or None.
+    None, load beside gravity or None, mean stresses of cells or None.
     """
 
     gravity: tuple
@@ -41,12 +42,12 @@ class Scatter(NamedTuple):
 
 @visit.register(Scatter)
 def scatter(work, here, a, p):
-    v, m, V, stress, pressure, force = a
+    v, m, V, stress, pressure, force, means = a
     g = work.gravity
     weight = pack(1.0, 0.0, 0.0, 0.0, g[0], g[1], g[2], work.tool)
     n, wx, wy, wz = locate(here, p)
     C0 = loaded(momentum_and_weight(m, v, weight, p), force, p)
-    _deposit_all(here, n, wx, wy, wz, C0, V, stress, pressure, p)
+    _deposit_all(here, n, wx, wy, wz, C0, V, stress, pressure, means, p)
     return 0
 
 
@@ -59,12 +60,18 @@ def loaded(C0, force, p):
 
 
 @inlined
-def _deposit_all(here, n, wx, wy, wz, C0, V, stress, pressure, p):
+def _deposit_all(here, n, wx, wy, wz, C0, V, stress, pressure, means, p):
     if stress is None:
         deposit_value(here.tiles[0], here.n0 + n, here.rows, wx, wy, wz, C0)
     else:
-        C1, C2, C3 = internal_force(here.mesh, V, stress, pressure, p)
-        deposit(here.tiles[0], here.n0 + n, here.rows, wx, wy, wz, C0, C1, C2, C3)
+        _deposit_force(here, n, wx, wy, wz, C0, V, stress, pressure, means, p)
+
+
+@inlined
+def _deposit_force(here, n, wx, wy, wz, C0, V, stress, pressure, means, p):
+    added = beside_effective_stress(here, stress, pressure, means, p)
+    C1, C2, C3 = internal_force(here.mesh, V, stress, added, p)
+    deposit(here.tiles[0], here.n0 + n, here.rows, wx, wy, wz, C0, C1, C2, C3)
 
 
 class Gather(NamedTuple):
@@ -73,7 +80,7 @@ class Gather(NamedTuple):
     Velocities change by h times the acceleration. With v None they stay, and positions follow the
     velocity that `Velocity` kept. With `law` None volume and stress stay. Domains follow the nodes
     as they are, and positions with them. Arrays: v, those of `ParticleSet.material` and of its
-    `follower`.
+    `follower`, mean divergences of cells or None.
     """
 
     law: object
@@ -84,10 +91,10 @@ class Gather(NamedTuple):
 
 @visit.register(Gather)
 def gather(work, here, a, p):
-    v, material, follower = a
+    v, material, follower, means = a
     n, wx, wy, wz = locate(here, p)
     value, sx, sy, sz = collect(here.source, n, here.rows, wx, wy, wz)
-    _strained(work, work.law, here, value, sx, sy, sz, material, p)
+    _strained(work, work.law, here, value, sx, sy, sz, means, material, p)
     X = _moved(work, here.x, v, value, p)
     X = moved_with_corners(follower, work.dt, here, n, X, p)
     deform(follower, here, sx, sy, sz, work.dt, p)
@@ -106,9 +113,10 @@ def _moved(work, x, v, value, p):
 
 
 @inlined
-def _strained(work, law, here, value, sx, sy, sz, material, p):
+def _strained(work, law, here, value, sx, sy, sz, means, material, p):
     if law is not None:
         V, stress, m, state, total, account, pressure, F = material
+        sx, sy, sz = with_mean_divergence(here, sx, sy, sz, means, p)
         confine(law, here.mesh, here.x, lane(value, 6), m, V, state, p)
         strain = strain_increment(here.mesh, sx, sy, sz, work.dt)
         spin = spin_increment(here.mesh, sx, sy, sz, work.dt)
@@ -153,7 +161,41 @@ def strain_and_force(work, here, a, p):
     V, stress = material[0], material[1]
     n, wx, wy, wz = locate(here, p)
     value, sx, sy, sz = collect(here.source, n, here.rows, wx, wy, wz)
-    _strained(work, work.law, here, value, sx, sy, sz, material, p)
-    C1, C2, C3 = internal_force(here.mesh, V, stress, pressure, p)
-    deposit(here.tiles[0], here.n0 + n, here.rows, wx, wy, wz, splat(0.0), C1, C2, C3)
+    _strained(work, work.law, here, value, sx, sy, sz, None, material, p)
+    _deposit_force(here, n, wx, wy, wz, splat(0.0), V, stress, pressure, None, p)
+    return 0
+
+
+class Strain(NamedTuple):
+    """Update stress with the nodal velocity.
+
+    Arrays: those of `ParticleSet.material`, mean divergences of cells or None.
+    """
+
+    law: object
+    rotation: object
+    dt: float
+
+
+@visit.register(Strain)
+def strain(work, here, a, p):
+    material, means = a
+    n, wx, wy, wz = locate(here, p)
+    value, sx, sy, sz = collect(here.source, n, here.rows, wx, wy, wz)
+    _strained(work, work.law, here, value, sx, sy, sz, means, material, p)
+    return 0
+
+
+class Force(NamedTuple):
+    """Add the internal force to the tiles.
+
+    Arrays: V, stress, pressure of a pore fluid or None, mean stresses of cells or None.
+    """
+
+
+@visit.register(Force)
+def force(work, here, a, p):
+    V, stress, pressure, means = a
+    n, wx, wy, wz = locate(here, p)
+    _deposit_force(here, n, wx, wy, wz, splat(0.0), V, stress, pressure, means, p)
     return 0

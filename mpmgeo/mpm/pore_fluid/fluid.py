@@ -6,9 +6,10 @@ The schemes are those of one phase; the stresses that the solid's works see are 
 
 from mpmgeo.boundaries.planes import BASE, FREE, Planes
 from mpmgeo.effect import Effect
+from mpmgeo.mpm.core.cells import Average
 from mpmgeo.mpm.core.transfer import Remap
-from mpmgeo.mpm.pore_fluid.nodes import Average, Momenta, Velocities
-from mpmgeo.mpm.pore_fluid.transfer import GatherFluid, ScatterFluid, Share, SumCells
+from mpmgeo.mpm.pore_fluid.nodes import Momenta, Velocities
+from mpmgeo.mpm.pore_fluid.transfer import MEAN, GatherFluid, ScatterFluid, Share, SumCells
 from mpmgeo.mpm.task import Task
 from mpmgeo.numerics.chunks import CHUNKS
 from mpmgeo.numerics.simd import LANES, aligned
@@ -85,7 +86,7 @@ class PoreFluid(Effect):
         flow, tiles = self.flow, (self.flow.tiles,)
         for number, p in enumerate(solver.sets):
             solver.over_particles(SumCells(), p, (p.V, p.pf, p.free), tiles, fresh=number == 0)
-        solver.over_nodes(Task(Average(), tiles, self.scratch, (flow.nodes,)))
+        solver.over_nodes(Task(Average(MEAN), tiles, self.scratch, (flow.nodes,)))
         for p in solver.sets:
             solver.over_particles(Share(), p, (solver.grid.above, flow.nodes, p.pf, p.free))
         solver.clock.lap("fluid: means of cells")

@@ -235,17 +235,3 @@ def velocities(work, node, a):
     store(nodes, at, pack(vx, vy, vz, x, y, z, lane(r, 0), 0.0))
     ux, uy, uz = vx + p * (ux - vx), vy + p * (uy - vy), vz + p * (uz - vz)
     store(flux, at, pack(ux, uy, uz, 0.0, 0.0, 0.0, 0.0, p))
-
-
-class Average(NamedTuple):
-    """Give every cell the mean of what `SumCells` put into the tiles, in its record's lane 6.
-
-    Tiles: flow. Arrays: flux.
-    """
-
-
-@at_node.register(Average)
-def average(work, node, a):
-    r = _sums(node, 0)
-    if lane(r, 0) > 0.0:
-        a[0][node.number * LANES + 6] = lane(r, 1) / lane(r, 0)

@@ -12,35 +12,23 @@ fluid.
 
 from typing import NamedTuple
 
+from mpmgeo.mpm.core.cells import add_to_cell, mean_of_cell
 from mpmgeo.mpm.core.loops import visit
-from mpmgeo.mpm.core.tile import collect, deposit, deposit_value, in_block, locate
+from mpmgeo.mpm.core.point import divergence
+from mpmgeo.mpm.core.tile import collect, deposit, deposit_value, locate
 from mpmgeo.numerics.jit import inlined
 from mpmgeo.numerics.simd import (
-    LANES,
     axpy,
-    lane,
     load_row,
     pack,
-    pack4,
     quarter,
     scale,
     store_row,
-    truncate,
     with_velocity,
 )
-from mpmgeo.state.layout import node_under, place
 
+MEAN = 6  # lane of the mean pressure of a cell in its record
 LEAST = 0.01  # porosity below which the pores count as no smaller: they cannot close
-
-
-@inlined
-def _cell(here, p):
-    """Return the place in its tile, along x, y, z, of the lowest node of particle p's cell."""
-    x, y, z = here.rows
-    last = pack4(x - 2.0, y - 2.0, z - 2.0, 0.0)
-    g = in_block(here.mesh, here.origin, load_row(here.x, p))
-    g = min(max(truncate(g), 0.0), last)
-    return int(lane(g, 0)), int(lane(g, 1)), int(lane(g, 2))
 
 
 @inlined
@@ -54,24 +42,19 @@ def _freedom(free, p):
 class SumCells(NamedTuple):
     """Sum volume and volume times pressure of the particles of each cell.
 
-    Particles that keep their pressure do not count. The record of a cell is that of its lowest
-    node. Arrays: V, u, free or None.
+    Particles that keep their pressure do not count. Arrays: V, u, free or None.
     """
 
 
 @visit.register(SumCells)
 def sum_cells(work, here, a, p):
     V, u, free = a
-    I, J, K = _cell(here, p)
-    tiles, at = here.tiles[0], here.n0 + place(here.rows, I, J, K) * LANES
-    volume = V[p] * _freedom(free, p)
-    tiles[at] += volume
-    tiles[at + 1] += volume * u[p]
+    add_to_cell(here, p, V[p] * _freedom(free, p), u[p])
     return 0
 
 
 class Share(NamedTuple):
-    """Give the particles the mean pressure of their cell, which `Average` put into the nodes.
+    """Give the particles the mean pressure of their cell, which `Average` put into its record.
 
     Arrays: blocks under the tiles, flux, u, free or None.
     """
@@ -81,8 +64,7 @@ class Share(NamedTuple):
 def share(work, here, a, p):
     above, flux, u, free = a
     if _freedom(free, p) != 0.0:
-        I, J, K = _cell(here, p)
-        u[p] = flux[node_under(above, here.b, here.rows, I, J, K) * LANES + 6]
+        u[p] = mean_of_cell(here, p, above, flux, MEAN)
     return 0
 
 
@@ -141,7 +123,7 @@ def gather(work, here, a, p):
     n, wx, wy, wz = locate(here, p)
     value, sx, sy, sz = collect(here.source, n, here.rows, wx, wy, wz)
     _accelerate(v, work.h, value, p)
-    strain = work.dt * _divergence(here.mesh, sx, sy, sz)
+    strain = work.dt * divergence(here.mesh, sx, sy, sz)
     _compress(work.fluid, solid, V, u, free, p, strain)
     return 0
 
@@ -150,12 +132,6 @@ def gather(work, here, a, p):
 def _accelerate(v, h, value, p):
     if v is not None:
         store_row(v, p, axpy(h, quarter(value, 3), load_row(v, p)))
-
-
-@inlined
-def _divergence(mesh, sx, sy, sz):
-    """Return the divergence [1/s] of a velocity, from the slopes per cell of node records."""
-    return mesh.ix * lane(sx, 0) + mesh.iy * lane(sy, 1) + mesh.iz * lane(sz, 2)
 
 
 @inlined

@@ -10,6 +10,7 @@ import mpmgeo
 from mpmgeo.mpm.schemes import SCHEMES
 from mpmgeo.shapes import SHAPES
 from mpmgeo.verify.plain import PlainSolver
+from mpmgeo.verify.plain_locking import PlainSharing
 
 STEPS = 30
 FIELDS = {"position": "x", "velocity": "v", "stress": "stress"}
@@ -54,7 +55,8 @@ def both(case, small=True):
     velocity = simulation.field("velocity")
     simulation.assign("velocity", velocity + random.uniform(-3, 3, velocity.shape))
     simulation.assign("stress", random.uniform(-1e4, 1e4, (len(velocity), 6)))
-    return simulation, PlainSolver(simulation.solver)
+    plain = PlainSolver if simulation.solver.cells is None else PlainSharing
+    return simulation, plain(simulation.solver)
 
 
 def assert_same_steps(simulation, twin, steps=STEPS):
@@ -105,13 +107,16 @@ def test_agree_with_threads(scheme):
     assert_same_steps(*both(scene(stress_scheme_update=scheme), small=False))
 
 
-@pytest.mark.parametrize("scheme", SCHEMES)
-def test_agree_with_pore_pressures(tmp_path, scheme):
+@pytest.mark.parametrize(
+    "scheme, locking", [("USL", "off"), ("MUSL", "off"), ("USF", "off"), ("USL", "cells")]
+)
+def test_agree_with_pore_pressures(tmp_path, scheme, locking):
     file = tmp_path / "p.json"
     points = [([0.9, 0.0, -1.8], 2e4), ([1.2, 0.1, -1.5], -1e4)]
     file.write_text(json.dumps([{"position": x, "pressure": p} for x, p in points]))
     coupling = {"enabled": True, "pore_pressure_field": str(file), "radius": 0.3}
-    case = scene(stress_scheme_update=scheme, hydro_mechanical_coupling=coupling)
+    keys = {"stress_scheme_update": scheme, "volumetric_locking": locking}
+    case = scene(hydro_mechanical_coupling=coupling, **keys)
     simulation, twin = both(case)
     assert len(np.unique(twin.pressure)) == 3
     assert_same_steps(simulation, twin)
@@ -133,9 +138,10 @@ def test_agree_with_damping_loads_mixed_sizes_and_departures():
     assert 10 < twin.active.sum() < len(twin.active) - 10
 
 
-def test_agree_with_plastic_flow_and_rotation():
+@pytest.mark.parametrize("locking", ["off", "cells"])
+def test_agree_with_plastic_flow_and_rotation(locking):
     """Laws with variables, and stress that turns with the particles."""
-    case = scene()
+    case = scene(volumetric_locking=locking)
     plastic = {"type": "mohr-coulomb", "friction": 25.0, "cohesion": 2e3, "dilation": 5.0}
     case["materials"][0] |= plastic | {"objective_rate": "hughes-winget"}
     case["materials"][1] |= {"objective_rate": "jaumann"}
@@ -147,7 +153,7 @@ def test_agree_with_plastic_flow_and_rotation():
         assert (expected > 0).sum() > 100
 
 
-@pytest.mark.parametrize("scheme", SCHEMES)
+@pytest.mark.parametrize("scheme", ["USL", "MUSL", "NPC"])
 def test_agree_with_deformation_gradients(scheme):
     case = scene(stress_scheme_update=scheme)
     case["materials"][1]["type"] = "neo-hookean"
@@ -164,6 +170,13 @@ def test_agree_with_deformation_gradients(scheme):
     kept = found.any(axis=1)
     assert 0 < kept.sum() < len(kept)
     assert np.abs(found[kept] - np.eye(3).ravel()).max() > 0.05
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_agree_with_shared_cells(shape, scheme):
+    """Two materials in a cell share nothing with each other, whatever the width of the shape."""
+    keys = {"shape_function": shape, "stress_scheme_update": scheme}
+    assert_same_steps(*both(scene(volumetric_locking="cells", **keys)))
 
 
 @pytest.mark.parametrize(

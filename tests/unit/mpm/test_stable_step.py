@@ -84,6 +84,11 @@ def test_stiffness_of_laws():
     found = of(GIMP, False, 0.25)
     solid = Elastic(id=1, density=1.0, young=1.0, poisson=0.0)
     assert solid.resistance(found) == pytest.approx((found.gradient, 0.0))
+    soft = Elastic(id=1, density=1.0, young=2.5, poisson=0.25)  # λ = G = 1
+    assert soft.resistance(found)[0] == pytest.approx(found.divergence + 2 * found.gradient)
+    assert soft.resistance(found, shared=True)[0] == pytest.approx(
+        found.mean_divergence + 2 * found.gradient
+    )
     water = Newtonian(id=1, density=1.0, bulk=2.0, viscosity=3.0)
     assert water.resistance(found) == pytest.approx((2 * found.divergence, 6 * found.deviator))
 

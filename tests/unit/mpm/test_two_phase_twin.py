@@ -89,6 +89,13 @@ class Twin:
                 G[p, i, j, k, axis] = np.einsum("i,j,k", *along)
         return W.reshape(len(self.x), -1), G.reshape(len(self.x), -1, 3)
 
+    def means(self, value):
+        """Return the means over the particles of one material in each cell."""
+        cell = np.floor(self.x / self.box.cell).astype(int)
+        cell = np.column_stack([cell, self.s.population.material])
+        _, cell = np.unique(cell, axis=0, return_inverse=True)
+        return (np.bincount(cell, self.V * value) / np.bincount(cell, self.V))[cell]
+
     def share_pressures(self):
         cell = np.floor(self.x / self.box.cell).astype(int)
         _, cell = np.unique(cell, axis=0, return_inverse=True)
@@ -105,6 +112,9 @@ class Twin:
         ρ, d = self.fluid[:, 1], self.fluid[:, 3:]
         xx, yy, zz, xy, yz, xz = self.stress.T
         σ = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+        if self.s.cells is not None:
+            mean = (xx + yy + zz) / 3
+            σ = σ + (self.means(mean) - mean) * np.eye(3)[:, :, None]
         inner = -np.einsum("p,abp,pnb->na", self.V, σ, G)
         push = np.einsum("p,pna->na", self.V * self.pf, G)
         n = (W.T @ (self.mf / ρ) / self.volume)[:, None]
@@ -142,8 +152,8 @@ class Twin:
         q = v + n * (u - v)
         porosity = 1 - self.m / (self.fluid[:, 2] * self.V)
         self.pf -= self.free * self.fluid[:, 0] / porosity * dt * np.einsum("pna,na->p", G, q)
-        self.x = self.x + dt * W @ drift
         self.strain(np.einsum("na,pnb->pab", v, G) * dt, dt)
+        self.x = self.x + dt * W @ drift
         self.steps += 1
 
     def damped(self, a, v, free):
@@ -152,6 +162,9 @@ class Twin:
         return a - self.s.damping[0].α * size * np.divide(v0, speed, where=speed > 0, out=0 * v0)
 
     def strain(self, L, dt):
+        if self.s.cells is not None:
+            θ = np.trace(L, axis1=1, axis2=2)
+            L = L + (self.means(θ) - θ)[:, None, None] * np.eye(3) / 3
         e = (L + L.transpose(0, 2, 1)) / 2
         strain = np.stack(
             [e[:, i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))], 1
@@ -168,6 +181,7 @@ CASES = {
         "damping": {"type": "local", "value": 0.3},
         "pore_pressure_smoothing": False,
     },
+    "USL, shared cells": {"volumetric_locking": "cells"},
     "USL, linear": {"shape_function": "linear"},
     "USL, quadratic": {"shape_function": "quadratic-bspline"},
     "MUSL, cubic": {"shape_function": "cubic-bspline", "stress_scheme_update": "MUSL"},

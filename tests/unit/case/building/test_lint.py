@@ -18,6 +18,7 @@ def simulation_of(case, time_step=1e-3, stable_time_step=1e-2):
     fields = {
         "position": np.concatenate(clouds),
         "body": np.repeat(np.arange(1, len(clouds) + 1, dtype=np.uint32), list(map(len, clouds))),
+        "material": np.ones(sum(map(len, clouds)), np.int64),
     }
     return SimpleNamespace(
         case=loaded,
@@ -204,3 +205,33 @@ def test_significant_frequency_of_a_sine(frequency):
 def test_significant_frequency_of_rest(count):
     record = Record(np.arange(count, dtype=float), np.zeros((count, 3)))
     assert significant_frequency(record) == 0
+
+
+UNDRAINED = {"type": "mohr-coulomb", "young": 1e6, "poisson": 0.3, "su_vertical_stress": 0.2}
+LOCKS = [
+    ({"poisson": 0.49}, "poisson 0.49"),
+    (UNDRAINED | {"friction": 30}, "su_vertical_stress, flow without dilation"),
+    (UNDRAINED | {"su_vertical_stress": 0, "cohesion": 1e3}, "friction 0, flow without dilation"),
+]
+
+
+@pytest.mark.parametrize(("keys", "reason"), LOCKS)
+def test_material_that_locks(case, keys, reason):
+    case["gravity"] = [0, 0, -9.81]
+    case["materials"]["soil"] |= keys
+    (warning,) = lint(simulation_of(case))
+    assert warning == (
+        f"materials: 1 hardly changes its volume ({reason}), which makes cells of 8 particles too "
+        'stiff; "volumetric_locking": "cells" mends it'
+    )
+    assert lint(simulation_of(case | {"volumetric_locking": "cells"})) == []
+
+
+def test_what_cannot_lock(case):
+    """A row of cells, one particle in each, a material that shrinks and swells."""
+    case["materials"]["soil"]["poisson"] = 0.49
+    body = case["body"]["block"]
+    case["body"]["block"] = body | {"point_p1": [0, 0, 0], "point_p2": [0.5, 0.5, 2]}
+    assert lint(simulation_of(case)) == []
+    case["body"]["block"] = body | {"particles_per_direction": [1, 1, 1]}
+    assert lint(simulation_of(case)) == []

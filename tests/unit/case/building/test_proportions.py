@@ -79,6 +79,7 @@ def test_no_gravity_and_nothing_else_acts(case):
 
 
 def test_no_gravity_where_strength_needs_it(case):
+    case["volumetric_locking"] = "cells"
     case["materials"]["soil"] |= SAND | {"su_vertical_stress": 0.3}
     case["body"]["block"]["initial_velocity"] = [1, 0, 0]
     assert warning_of(case) == "gravity: absent, while su_vertical_stress needs a vertical stress"
