@@ -172,7 +172,13 @@ def test_agree_with_deformation_gradients(scheme):
     assert np.abs(found[kept] - np.eye(3).ravel()).max() > 0.05
 
 
-@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize(
+    "shape, scheme",
+    [
+        *(("GIMP", scheme) for scheme in ("USL", "MUSL", "NPC")),
+        *(pytest.param(shape, "USF", marks=pytest.mark.slow) for shape in SHAPES),
+    ],
+)
 def test_agree_with_shared_cells(shape, scheme):
     """Two materials in a cell share nothing with each other, whatever the width of the shape."""
     keys = {"shape_function": shape, "stress_scheme_update": scheme}
