@@ -274,7 +274,7 @@ class Simulation:
         if values.shape != shape:
             raise ValueError(f"{key} has the shape {shape}, not {values.shape}")
         for s in self.solver.sets:
-            getattr(s, name)[:] = values[s.row]
+            s.assign(name, values)
         self._changed()
 
     def _changed(self):

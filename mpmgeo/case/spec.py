@@ -27,10 +27,12 @@ from mpmgeo.output.fields import (
 from mpmgeo.output.probes import PROBES
 from mpmgeo.parameters import Counts, Placed, Vector, parameter
 from mpmgeo.shapes import SHAPES
+from mpmgeo.transfers import TRANSFERS, Flip
 
 Law = reduce(or_, LAWS)
 Body = reduce(or_, BODIES)
 Damping = reduce(or_, DAMPINGS)
+Transfer = reduce(or_, TRANSFERS)
 Probe = reduce(or_, PROBES)
 
 ACTIONS = (*LOADS, TerrainContact)
@@ -201,6 +203,9 @@ class Settings:
     )
     shape_function: str = parameter(
         "Interpolation between particles and grid", choices=tuple(SHAPES), default="GIMP"
+    )
+    transfer: Transfer = parameter(
+        "How the particles take on the velocity of the nodes", default=Flip(), word=True
     )
     n_phases: int = parameter(
         "Number of phases: the solid alone, or with a fluid in its pores",

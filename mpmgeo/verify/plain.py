@@ -18,15 +18,9 @@ from mpmgeo.mpm.core.point import advance
 from mpmgeo.mpm.schemes import musl, usf, usl
 from mpmgeo.numerics.jit import compiled, inlined
 from mpmgeo.shapes.shape import cut_of, stencil, width
+from mpmgeo.transfers.apic import Symbols as Fitted
 from mpmgeo.verify.dense_grid import Box, free_components
-
-ZERO = (0.0, 0.0, 0.0)
-
-
-@inlined
-def plus(a, s, b):
-    """Return the vector a + s b."""
-    return a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]
+from mpmgeo.verify.plain_motion import ZERO, keep, new_velocity, plus, velocity_at, way
 
 
 @inlined
@@ -70,15 +64,18 @@ def slopes(wx, wy, wz, i, j, k, cell):
 
 
 @compiled
-def scatter(shape, box, rows, half, x, v, m, V, stress, pressure, force, M, P, F):
-    """Add mass and momentum to the nodes, and force; what is None is left out."""
+def scatter(shape, box, rows, half, x, motion, m, V, stress, pressure, force, M, P, F):
+    """Add mass and momentum to the nodes, and force; what is None is left out.
+
+    `motion`: v, and C or None.
+    """
     S = width(shape)
+    v, C = motion
     for p in rows:
         I, wx = stencil_along(0, shape, box, half, x, p)
         J, wy = stencil_along(1, shape, box, half, x, p)
         K, wz = stencil_along(2, shape, box, half, x, p)
         mass = m[p]
-        momentum = plus(ZERO, mass, (v[p, 0], v[p, 1], v[p, 2]))
         f = force[p, 0], force[p, 1], force[p, 2]
         u = -V[p] * pressure[p]
         xx, yy, zz = u + V[p] * stress[p, 0], u + V[p] * stress[p, 1], u + V[p] * stress[p, 2]
@@ -90,7 +87,8 @@ def scatter(shape, box, rows, half, x, v, m, V, stress, pressure, force, M, P, F
                     w = wx[i] * wy[j] * wz[k]
                     if M is not None:
                         M[n] += w * mass
-                        add(P, n, plus(ZERO, w, momentum))
+                        u = velocity_at(v, C, way(box, n, x, p), p)
+                        add(P, n, plus(ZERO, w * mass, u))
                     if F is not None:
                         gx, gy, gz = slopes(wx, wy, wz, i, j, k, box.cell)
                         total = plus(ZERO, w, f)
@@ -130,20 +128,21 @@ def held(free, n, a):
 
 
 @compiled
-def gather(shape, box, law, rotation, rows, half, x, v, own, nodes, A, drift, dt, h):
+def gather(shape, box, law, rotation, rows, half, x, motion, own, nodes, A, drift, dt, h):
     """Change v by the nodal A, move x with `drift`, strain with U; what is None is left out.
 
-    `law` None: no strain; `own`: masses or None, volumes, stresses, variables of the law;
-    `nodes`: M and U.
+    `law` None: no strain; `motion`: transfer or None, whether its gradient is fitted, v, C or None;
+    `own`: masses or None, volumes, stresses, variables of the law; `nodes`: M and U.
     """
     S = width(shape)
+    transfer, fits, v, C = motion
     m, V, stress, state = own
     M, U = nodes
     for p in rows:
         I, wx = stencil_along(0, shape, box, half, x, p)
         J, wy = stencil_along(1, shape, box, half, x, p)
         K, wz = stencil_along(2, shape, box, half, x, p)
-        a = u = dx = dy = dz = ZERO
+        a = u = new = D = dx = dy = dz = bx = by = bz = ZERO
         mass = 0.0
         for i in range(S):
             for j in range(S):
@@ -154,16 +153,27 @@ def gather(shape, box, law, rotation, rows, half, x, v, own, nodes, A, drift, dt
                         a = plus(a, w, vector(A, n))
                     if drift is not None:
                         u = plus(u, w, vector(drift, n))
-                    if law is not None:
-                        gx, gy, gz = slopes(wx, wy, wz, i, j, k, box.cell)
-                        nodal = vector(U, n)
-                        dx, dy, dz = plus(dx, gx, nodal), plus(dy, gy, nodal), plus(dz, gz, nodal)
-                        mass += w * M[n]
+                    gx, gy, gz = slopes(wx, wy, wz, i, j, k, box.cell)
+                    nodal, d = vector(U, n), way(box, n, x, p)
+                    dx, dy, dz = plus(dx, gx, nodal), plus(dy, gy, nodal), plus(dz, gz, nodal)
+                    mass += w * M[n]
+                    new, D = plus(new, w, nodal), plus(D, w, (d[0] ** 2, d[1] ** 2, d[2] ** 2))
+                    bx, by = plus(bx, w * d[0], nodal), plus(by, w * d[1], nodal)
+                    bz = plus(bz, w * d[2], nodal)
         if law is not None:
             confine(law, box.mesh, x, mass, m, V, state, p)
             strain(law, rotation, dx, dy, dz, V, stress, state, p, dt)
+        if fits:
+            bx, by, bz = (
+                plus(ZERO, 1 / D[0], bx),
+                plus(ZERO, 1 / D[1], by),
+                plus(ZERO, 1 / D[2], bz),
+            )
+            keep(A, C, (bx, by, bz), p)
+        else:
+            keep(A, C, (dx, dy, dz), p)
         for c in range(3):
-            v[p, c] += h * a[c]
+            v[p, c] = new_velocity(transfer, A, h, v[p, c], new[c], a[c])
             x[p, c] += dt * u[c]
 
 
@@ -202,7 +212,8 @@ class PlainSolver:
             raise ValueError("the plain solver has gravity, box loads and local damping only")
         self.shape, self.time_step, self.steps = solver.shape, solver.time_step, solver.steps
         self.local = solver.damping[0].α if solver.damping else None
-        self.cutoff = solver.cutoff
+        self.cutoff, self.transfer = solver.cutoff, solver.transfer
+        self.fits = isinstance(solver.transfer, Fitted)
         mesh = solver.grid.mesh
         self.box = Box.of(mesh, solver.planes, ghosts=(width(solver.shape) + 1) // 2)
         self.free = free_components(self.box, solver.planes)
@@ -216,10 +227,14 @@ class PlainSolver:
         self.m, self.V, self.pressure, self.stress = *np.zeros((3, n)), np.zeros((n, 6))
         self.x, self.v, self.force, self.half = (np.zeros((n, 3)) for _ in range(4))
         self.active = np.zeros(n, bool)
+        is_affine = any(s.C is not None for s in solver.sets)
+        self.C = np.zeros((n, 3, 3)) if is_affine else None
         for s in solver.sets:
             self.active[s.row[: s.active]] = True
             self.m[s.row], self.V[s.row], self.half[s.row] = s.m, s.V, s.half
             self.x[s.row], self.v[s.row], self.stress[s.row] = s.x, s.v, s.stress
+            if s.C is not None:
+                self.C[s.row] = s.C
             self.force[s.row] = s.m[:, None] * solver.gravity
             if s.force is not None:
                 self.force[s.row] += s.force
@@ -266,7 +281,7 @@ class PlainSolver:
                 nodal[:] = 0.0
         for *_, rows in self.sets:
             scatter(
-                *(self.shape, self.box, rows, self.half, self.x, self.v, self.m),
+                *(self.shape, self.box, rows, self.half, self.x, (self.v, self.C), self.m),
                 *(self.V, self.stress, self.pressure, self.force, M, P, F),
             )
 
@@ -274,10 +289,11 @@ class PlainSolver:
         update_nodes(h, self.local, self.cutoff, self.free, self.M, self.P, F, self.U, self.A)
 
     def _gather(self, h, A, drift, strains=False):
+        motion = self.transfer, self.fits, self.v, self.C
         for (law, rotation, rows), state in zip(self.sets, self.state, strict=True):
             m = self.m if getattr(law, "GRAINS", False) else None
             own = m, self.V, self.stress, state
             gather(
                 *(self.shape, self.box, law if strains else None, rotation, rows, self.half),
-                *(self.x, self.v, own, (self.M, self.U), A, drift, self.time_step, h),
+                *(self.x, motion, own, (self.M, self.U), A, drift, self.time_step, h),
             )

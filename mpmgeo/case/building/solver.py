@@ -63,6 +63,7 @@ def build(case):
         effects=tuple(effect for effect in effects if effect is not None),
         damping=damping,
         early_damping=early,
+        transfer=case.transfer.symbols,
         leaky=legacy,
         cutoff=0.0 if legacy else TOUCH**shape.edge * lightest,
     )

@@ -105,6 +105,8 @@ class Tools(Effect):
             if s.tool is not None:
                 for axis in np.flatnonzero(self.given[s.tool]):
                     s.v[: s.active, axis] = self.after[s.tool, axis]
+                    if s.C is not None:
+                        s.C[: s.active, :, axis] = 0.0
 
     stopped = end
 

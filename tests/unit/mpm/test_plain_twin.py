@@ -67,6 +67,11 @@ def assert_same_steps(simulation, twin, steps=STEPS):
         expected = getattr(twin, name)
         found = simulation.field(key) - origin.get(key, 0.0)
         assert_same(found, expected, key)
+    if twin.C is not None:
+        gradient = np.zeros_like(twin.C)
+        for s in simulation.solver.sets:
+            gradient[s.row] = s.C
+        assert_same(gradient, twin.C, "velocity gradient")
     volume = np.zeros_like(twin.V)
     for s in simulation.solver.sets:
         volume[s.row] = s.V
@@ -90,6 +95,31 @@ def test_agree(shape, scheme, small):
     block = 4 * twin.box.cell[0]
     crossed = np.floor((twin.x[:, 0] - 0.3) / block) != np.floor((start[:, 0] - 0.3) / block)
     assert crossed.sum() > 20
+
+
+@pytest.mark.parametrize(
+    "transfer, shape, scheme",
+    [
+        ("tpic", "GIMP", "USL"),
+        ("tpic", "quadratic-bspline", "MUSL"),
+        ("tpic", "cubic-bspline", "USF"),
+        ("apic", "GIMP", "MUSL"),
+        ("apic", "quadratic-bspline", "USL"),
+        ("apic", "cubic-bspline", "USF"),
+    ],
+)
+def test_agree_with_affine_transfers(transfer, shape, scheme):
+    case = scene(shape_function=shape, stress_scheme_update=scheme, transfer=transfer)
+    simulation, twin = both(case)
+    random = np.random.default_rng(8)
+    for s in simulation.solver.sets:
+        s.C[:] = random.uniform(-30, 30, s.C.shape)
+        twin.C[s.row] = s.C
+    assert_same_steps(simulation, twin)
+
+
+def test_agree_with_a_blend():
+    assert_same_steps(*both(scene(transfer={"type": "flip", "flip": 0.9})))
 
 
 @pytest.mark.parametrize("scheme", SCHEMES)
