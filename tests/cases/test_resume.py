@@ -126,6 +126,8 @@ CASES = {
     "earthquake in the old form, MUSL": SHAKEN | OLD | {"stress_scheme_update": "MUSL"},
     "Mohr–Coulomb": {"materials": [PLASTIC, ELASTIC]},
     "prescribed velocity": {"prescribed_velocity": [PUSHED]},
+    "APIC, prescribed velocity": {"transfer": "apic", "prescribed_velocity": [PUSHED]},
+    "TPIC, MUSL, energy": ENERGY | {"transfer": "tpic", "stress_scheme_update": "MUSL"},
     "two phases": WET,
     "two phases, MUSL": WET | {"stress_scheme_update": "MUSL"},
     "two phases, kinetic damping": WET | KINETIC,
