@@ -21,9 +21,9 @@ EDGES = [(1, 1, 1), (1, 1, 5)]
 SOUND, UNSOUND, DEFAULT = 0.95, 1 / 0.6, 0.25
 
 
-def check(method, count, poisson, edges, conductivity=None, offsets=OFFSETS, steps=600):
+def check(method, count, poisson, edges, conductivity=None, offsets=OFFSETS, steps=600, **more):
     """Assert that the limit holds at all places on the grid, and at one is not far from the end."""
-    keys = dict(zip(("stress_scheme_update", "shape_function"), method, strict=True))
+    keys = dict(zip(("stress_scheme_update", "shape_function"), method, strict=True)) | more
     cases = [block(count, poisson, edges, o, conductivity, **keys) for o in offsets]
     trials = [Trial(case) for case in cases]
     limit = trials[0].limit
@@ -38,6 +38,11 @@ def check(method, count, poisson, edges, conductivity=None, offsets=OFFSETS, ste
 @pytest.mark.parametrize("poisson", [0.0, 0.49])
 def test_one_phase(method, poisson):
     check(method, 2, poisson, (1, 1, 1))
+
+
+@pytest.mark.parametrize("scheme, transfer", [("USL", "tpic"), ("MUSL", "tpic"), ("MUSL", "apic")])
+def test_particles_with_a_velocity_gradient(scheme, transfer):
+    check((scheme, GIMP), 2, 0.3, (1, 1, 1), offsets=OFFSETS[::3], transfer=transfer)
 
 
 @pytest.mark.parametrize("edges", EDGES, ids=str)
