@@ -80,7 +80,7 @@ class Stages(Loops):
         nodes, step = self.grid.nodes, 0.0 if h is None else h
         for s in self.sets:
             law = s.law if stress else None
-            work = Gather(law, s.rotation, self.transfer, self.time_step, step)
+            work = Gather(law, s.rotation, self.time_step, step, self.transfer)
             v, C = (None, None) if h is None else (s.v, s.C)
             arrays = (v, C, s.material)
             self.gone += self.over_particles(work, s, arrays, None, nodes)
@@ -92,7 +92,7 @@ class Stages(Loops):
         """Change velocities by h times the acceleration, put the new momentum into the tiles."""
         grid = self.grid
         for number, s in enumerate(self.sets):
-            arrays, fresh, work = (s.v, s.C, s.m), number == 0, Remap(self.transfer, h)
+            arrays, fresh, work = (s.v, s.C, s.m), number == 0, Remap(h, self.transfer)
             self.over_particles(work, s, arrays, (grid.tiles,), grid.nodes, fresh)
         self.clock.lap("remap")
         for act in self.asked["after_remap"]:

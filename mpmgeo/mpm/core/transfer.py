@@ -100,9 +100,9 @@ class Gather(NamedTuple):
 
     law: object
     rotation: object
-    transfer: object
     dt: float
     h: float
+    transfer: object = None
 
 
 @visit.register(Gather)
@@ -154,8 +154,8 @@ class Remap(NamedTuple):
     Arrays: v, velocity gradients or None, m.
     """
 
-    transfer: object
     h: float
+    transfer: object = None
 
 
 @visit.register(Remap)
