@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import mpmgeo
-from mpmgeo.verify import limits
+from mpmgeo.verify import limits, loaded_bar
 from mpmgeo.verify.flight import Flight, case
 
 
@@ -40,6 +40,19 @@ def test_flight_brings_no_energy(keys, most):
     keys = {"stress_scheme_update": "MUSL", "shape_function": "GIMP"} | keys
     energy = Flight(case(0.3, 2, 0.5, steps, **keys)).energies(steps)
     assert (energy.max() > 10) if most is None else (energy.max() <= most)
+
+
+def test_particles_that_cross_cells():
+    """MUSL with GIMP, a bar strained by up to a fifth: FLIP gets worse with finer cells."""
+    keys = {"stress_scheme_update": "MUSL", "shape_function": "GIMP"}
+    flip, tpic = (
+        [loaded_bar.error(cells, 0.1, transfer=transfer, **keys) for cells in (16, 32)]
+        for transfer in ("flip", "tpic")
+    )
+    assert flip[1] > 1.2 * flip[0] > 0.05
+    assert tpic[1] < tpic[0] < 0.03
+    small = [loaded_bar.error(cells, 0.02, transfer="tpic", **keys) for cells in (16, 32)]
+    assert small[1] < 0.6 * small[0] < 0.02
 
 
 def test_a_tool_moves_as_prescribed_with_affine_particles():
