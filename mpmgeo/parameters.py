@@ -22,6 +22,7 @@ def parameter(
     place=False,
     key=None,
     several=False,
+    word=False,
     names=None,
     last=False,
 ):
@@ -31,9 +32,10 @@ def parameter(
     `maximum` closed ones, and bound every component of a vector; `choices` lists the accepted
     words; `file` marks the name of a file, resolved against the case's folder; `place` marks a
     position, or several, in the user's coordinates; `key` is the JSON key where it is not the name
-    of the field; `several`: a list of objects is accepted in the place of one; `names`: the key of
-    the entries of the case whose names are accepted in the place of a number; `last`: the key comes
-    after those of the classes that inherit it. Without a `default` the key is required.
+    of the field; `several`: a list of objects is accepted in the place of one; `word`: the word of
+    its type is, if it says nothing else; `names`: the key of the entries of the case whose names
+    are accepted in the place of a number; `last`: the key comes after those of the classes that
+    inherit it. Without a `default` the key is required.
     """
     bounds = {"above": above, "minimum": minimum, "below": below, "maximum": maximum}
     metadata = {
@@ -45,6 +47,7 @@ def parameter(
         "place": place,
         "key": key,
         "several": several,
+        "word": word,
         "names": names,
         "last": last,
     }

@@ -38,14 +38,15 @@ def assemble(
     local=None,
     delayed=None,
     settles=False,
+    gradient=None,
     **more,
 ):
     """Return the solver of particles at `position` (n, 3) in a mesh with free planes.
 
     `split`: number of particle sets among which the particles are dealt in turn. `local`,
     `delayed`: share of local damping, in our form or that of MPM-Geomechanics; `settles`: whether
-    there is kinetic damping. `more`: fields of Solver; a time step of 1 ms, no gravity and no mass
-    cut-off if not said.
+    there is kinetic damping; `gradient`: derivatives of velocity (n, 3, 3) that particles keep.
+    `more`: fields of Solver; a time step of 1 ms, no gravity and no mass cut-off if not said.
     """
     position = np.array(position, float).reshape(-1, 3)
     n = len(position)
@@ -62,6 +63,7 @@ def assemble(
                 row=rows,
                 x=position[rows],
                 v=velocity[rows],
+                C=None if gradient is None else np.array(gradient, float)[rows],
                 m=mass[rows],
                 V=np.full(len(rows), float(volume)),
                 stress=stress[rows],

@@ -1,11 +1,16 @@
 """What a case may say of the method: scheme, shape functions, and what belongs to them."""
 
 from dataclasses import dataclass
+from functools import reduce
+from operator import or_
 
 from mpmgeo.mpm.schemes import SCHEMES, NewmarkNumbers
 from mpmgeo.parameters import parameter
 from mpmgeo.shapes import SHAPES
 from mpmgeo.shapes.lme import LocalMaxEnt
+from mpmgeo.transfers import TRANSFERS, Flip
+
+Transfer = reduce(or_, TRANSFERS)
 
 
 @dataclass(frozen=True)
@@ -20,6 +25,9 @@ class Method:
     )
     shape_function: str = parameter(
         "Interpolation between particles and grid", choices=tuple(SHAPES), default="GIMP"
+    )
+    transfer: Transfer = parameter(
+        "How the particles take on the velocity of the nodes", default=Flip(), word=True
     )
     npc: NewmarkNumbers = parameter(
         "The numbers of the schemes NPC and NPC-CD", default=NewmarkNumbers()

@@ -58,7 +58,7 @@ def _put(solver, key, values):
             "assign that"
         )
     for s in solver.sets:
-        getattr(s, ARRAYS[key])[:] = values[s.row]
+        s.assign(ARRAYS[key], values)
 
 
 def _displace(solver, u):

@@ -9,6 +9,7 @@ from mpmgeo.mpm.newmark import CentralDifferences, Newmark, NewmarkNumbers, Pred
 __all__ = [
     "AS_MPM_GEOMECHANICS",
     "SCHEMES",
+    "Newmark",
     "NewmarkNumbers",
     "first_step",
     "is_filtered",

@@ -49,6 +49,7 @@ class Solver(Stages):
     effects: tuple[Effect, ...] = ()
     damping: tuple = ()  # models of damping at the nodes
     early_damping: object = None  # one that acts as in MPM-Geomechanics
+    transfer: object = None  # how velocities go to particles; None: FLIP
     leaky: bool = False  # whether particles may pass planes that hold, as in MPM-Geomechanics
     cutoff: float = 0.0  # [kg] nodal mass up to which forces do not move a node
     cells: CellMeans | None = None  # of strain and stress, if the particles of a cell share them

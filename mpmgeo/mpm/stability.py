@@ -17,6 +17,10 @@ particle, which gives it hardly mass, but a slope: for GIMP μ is about 1/l, l t
 strains with the velocity of that node, which no particle has; so its limit lies at ωΔt = √2. MUSL
 and USF strain with velocities that particles brought to the nodes, as a leapfrog: ωΔt = 2.
 
+Particles that keep a velocity gradient bring much of what a node had back to it. If they bring the
+share φ of a motion, a step takes (x, v) to (x + Δt φ v′, v′), v′ = φ v − ω²Δt x, with MUSL and USF:
+stable for ω²Δt² < 2 (1 + φ)/φ, so for 4 and the A of velocities of nodes, whatever the share.
+
 Derived, but for Γ, which is the largest that a search over products finds, and for Δ = ⅔ Γ in USL,
 that of a node which moves by itself, else Γ; `benchmarks/stability.py` measures how close they are.
 Shapes that end at walls have rows beside walls, too, from half a half-size on; planes that hold

@@ -55,7 +55,7 @@ class Stages(Loops):
             work = Scatter(self.gravity, 0.0 if s.tool is None else 1.0)
             stress, pressure = (s.stress, s.pressure) if internal else (None, None)
             means = self.mean_stresses(s) if internal else None
-            arrays = (s.v, s.m, s.V, stress, pressure, s.force, means)
+            arrays = (s.v, s.C, s.m, s.V, stress, pressure, s.force, means)
             self.over_particles(work, s, arrays, None, None, fresh)
             fresh = False
         self.clock.lap("scatter")
@@ -88,9 +88,11 @@ class Stages(Loops):
             act(self, h)
         nodes, step = self.grid.nodes, 0.0 if h is None else h
         for s in self.sets:
-            work = Gather(s.law if stress else None, s.rotation, self.time_step, step)
+            law = s.law if stress else None
+            work = Gather(law, s.rotation, self.time_step, step, self.transfer)
             means = self.mean_divergences(s) if stress else None
-            arrays = (None if h is None else s.v, s.material, s.follower, means)
+            v, C = (None, None) if h is None else (s.v, s.C)
+            arrays = (v, C, s.material, s.follower, means)
             self.gone += self.over_particles(work, s, arrays, None, nodes)
         self.clock.lap("gather")
         for act in self.asked["after_gather"]:
@@ -100,8 +102,8 @@ class Stages(Loops):
         """Change velocities by h times the acceleration, put the new momentum into the tiles."""
         grid = self.grid
         for number, s in enumerate(self.sets):
-            arrays, fresh = (s.v, s.m), number == 0
-            self.over_particles(Remap(h), s, arrays, (grid.tiles,), grid.nodes, fresh)
+            arrays, fresh, work = (s.v, s.C, s.m), number == 0, Remap(h, self.transfer)
+            self.over_particles(work, s, arrays, (grid.tiles,), grid.nodes, fresh)
         self.clock.lap("remap")
         for act in self.asked["after_remap"]:
             act(self, h)

@@ -55,7 +55,9 @@ def _undefined(lanes):
 
 
 def broadcast(builder, x, lanes):
-    """Emit a vector with x in all lanes."""
+    """Emit a vector with x in all lanes; x itself if it is a vector."""
+    if isinstance(x.type, ir.VectorType):
+        return x
     first = builder.insert_element(_undefined(lanes), x, _INT(0))
     return builder.shuffle_vector(first, _undefined(lanes), _mask(*[0] * lanes))
 
@@ -106,8 +108,7 @@ def load_row(typing, array, p):
 
     def codegen(context, builder, sig, args):
         first = builder.mul(args[1], args[1].type(3))
-        address = _address(context, builder, sig.args[0], args[0], first, 3)
-        three = builder.load(address, align=8)
+        three = builder.load(_address(context, builder, sig.args[0], args[0], first, 3), align=8)
         return builder.shuffle_vector(three, _zero(3), _mask(0, 1, 2, 3))
 
     return vector4(array, types.intp), codegen
@@ -141,8 +142,7 @@ def load_column(typing, array, p, column):
 
     def codegen(context, builder, sig, args):
         first = builder.mul(args[1], args[1].type(6))
-        address = _address(context, builder, sig.args[0], args[0], first, 6)
-        six = builder.load(address, align=8)
+        six = builder.load(_address(context, builder, sig.args[0], args[0], first, 6), align=8)
         return builder.shuffle_vector(six, _zero(6), _mask(6, 6, 6, 6, i, j, k, 6))
 
     return vector8(array, types.intp, column), codegen
@@ -238,14 +238,14 @@ def along(typing, values, axis):
 
 @intrinsic
 def scale(typing, a, v):
-    """a v"""
+    """a v, lane by lane if a is a vector."""
     if not isinstance(v, Vector):
         return None
 
     def codegen(context, builder, sig, args):
         return builder.fmul(broadcast(builder, args[0], v.lanes), args[1])
 
-    return v(types.float64, v), codegen
+    return v(a if a == v else types.float64, v), codegen
 
 
 @intrinsic
@@ -260,7 +260,7 @@ def add(typing, v, w):
 
 @intrinsic
 def axpy(typing, a, v, w):
-    """a v + w with one rounding."""
+    """a v + w with one rounding, lane by lane if a is a vector."""
     if not isinstance(v, Vector):
         return None
 
@@ -270,7 +270,7 @@ def axpy(typing, a, v, w):
         fma = cgutils.get_or_insert_function(builder.module, kind, name)
         return builder.call(fma, [broadcast(builder, args[0], v.lanes), *args[1:]])
 
-    return v(types.float64, v, v), codegen
+    return v(a if a == v else types.float64, v, v), codegen
 
 
 @intrinsic

@@ -14,8 +14,8 @@ from mpmgeo.state.checked import array_from, demand
 from mpmgeo.state.grid import cut
 
 ARRAYS = (
-    *("row", "x", "v", "m", "V", "stress", "half", "force", "state", "pressure", "strain", "work"),
-    *("F", "a", "mf", "vf", "pf", "free", "pull"),
+    *("row", "x", "v", "C", "m", "V", "stress", "half", "force", "state"),
+    *("pressure", "strain", "work", "F", "a", "mf", "vf", "pf", "free", "pull"),
     *("due", "contact", "domain"),
 )
 """Fields of a set that are arrays, if they are there, with a row for each particle."""
@@ -56,6 +56,7 @@ class ParticleSet:
     V: np.ndarray  # (n,) volume without openings [m³]
     stress: np.ndarray  # (n, 6) effective stress [Pa]
     half: object  # half-sizes in cells: one triple, or (n, 3)
+    C: np.ndarray | None = None  # (n, 3, 3) derivatives of velocity along x, y, z, if kept [1/s]
     rotation: object = None  # objective rate: how stress follows rotation
     force: np.ndarray | None = None  # (n, 3) constant load beside gravity [N]
     state: np.ndarray | None = None  # (n, k) variables of the law
@@ -135,11 +136,19 @@ class ParticleSet:
             np.copyto(getattr(self, name), found)
         self.start, self.chunk = start.copy(), chunk.copy()
 
+    def assign(self, name, values):
+        """Set an array from values in row order; where velocities are set, gradients vanish."""
+        getattr(self, name)[:] = values[self.row]
+        if name == "v" and self.C is not None:
+            self.C[:] = 0.0
+
     def stop(self):
         """Stop the active particles, both phases of them."""
         self.v[: self.active] = 0.0
         if self.a is not None:
             self.a[: self.active] = 0.0
+        if self.C is not None:
+            self.C[: self.active] = 0.0
         if self.fluid is not None:
             self.vf[: self.active] = 0.0
 

@@ -16,6 +16,7 @@ from mpmgeo.materials.hyperelastic import is_hyperelastic
 from mpmgeo.mpm.newmark import Newmark, PredictorCorrector
 from mpmgeo.mpm.schemes import first_step, musl, usf, usl
 from mpmgeo.shapes.shape import width
+from mpmgeo.transfers.apic import Symbols as Fitted
 from mpmgeo.verify.dense_grid import Box, free_components
 from mpmgeo.verify.plain_transfers import gather, leave, scatter, update_nodes
 
@@ -37,7 +38,8 @@ class PlainSolver:
             raise ValueError("the plain solver shares no strain in cells; PlainSharing does")
         self.shape, self.time_step, self.steps = solver.shape, solver.time_step, solver.steps
         self.local = solver.damping[0].α if solver.damping else None
-        self.cutoff = solver.cutoff
+        self.cutoff, self.transfer = solver.cutoff, solver.transfer
+        self.fits = isinstance(solver.transfer, Fitted)
         mesh = solver.grid.mesh
         self.box = Box.of(mesh, solver.planes, ghosts=(width(solver.shape) + 1) // 2)
         self.free = free_components(self.box, solver.planes)
@@ -51,12 +53,16 @@ class PlainSolver:
         self.m, self.V, self.pressure, self.stress = *np.zeros((3, n)), np.zeros((n, 6))
         self.x, self.v, self.a, self.force, self.half = (np.zeros((n, 3)) for _ in range(5))
         self.gradient, self.active = np.zeros((n, 9)), np.zeros(n, bool)
+        is_affine = any(s.C is not None for s in solver.sets)
+        self.C = np.zeros((n, 3, 3)) if is_affine else None
         for s in solver.sets:
             self.active[s.row[: s.active]] = True
             self.m[s.row], self.V[s.row], self.half[s.row] = s.m, s.V, s.half
             self.x[s.row], self.v[s.row], self.stress[s.row] = s.x, s.v, s.stress
             if s.a is not None:
                 self.a[s.row] = s.a
+            if s.C is not None:
+                self.C[s.row] = s.C
             self.force[s.row] = s.m[:, None] * solver.gravity
             if s.F is not None:
                 self.gradient[s.row] = s.F
@@ -129,7 +135,7 @@ class PlainSolver:
                 nodal[:] = 0.0
         for *_, rows in self.sets:
             scatter(
-                *(self.shape, self.box, rows, self.half, self.x, self.v, self.m),
+                *(self.shape, self.box, rows, self.half, self.x, (self.v, self.C), self.m),
                 *(self.V, self.stress, self.pressure, self.force, M, P, F),
             )
 
@@ -140,6 +146,7 @@ class PlainSolver:
         update_nodes(h, self.local, self.cutoff, self.free, self.M, self.P, F, self.U, self.A)
 
     def _gather(self, h, A, drift, strains=False):
+        motion = self.transfer, self.fits, self.v, self.C
         for (law, rotation, rows), state in zip(self.sets, self.state, strict=True):
             m = self.m if getattr(law, "GRAINS", False) else None
             θ = self._divergence(rows) if strains else None
@@ -147,5 +154,5 @@ class PlainSolver:
             own = m, self.V, self.stress, state, θ, F
             gather(
                 *(self.shape, self.box, law if strains else None, rotation, rows, self.half),
-                *(self.x, self.v, own, (self.M, self.U), A, drift, self.time_step, h),
+                *(self.x, motion, own, (self.M, self.U), A, drift, self.time_step, h),
             )

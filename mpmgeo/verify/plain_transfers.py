@@ -8,14 +8,7 @@ from mpmgeo.mpm.core.opening import confine
 from mpmgeo.mpm.core.point import advance
 from mpmgeo.numerics.jit import compiled, inlined
 from mpmgeo.shapes.shape import cut_of, stencil, width
-
-ZERO = (0.0, 0.0, 0.0)
-
-
-@inlined
-def plus(a, s, b):
-    """Return the vector a + s b."""
-    return a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]
+from mpmgeo.verify.plain_motion import ZERO, keep, new_velocity, plus, velocity_at, way
 
 
 @inlined
@@ -59,15 +52,18 @@ def slopes(wx, wy, wz, i, j, k, cell):
 
 
 @compiled
-def scatter(shape, box, rows, half, x, v, m, V, stress, pressure, force, M, P, F):
-    """Add mass and momentum to the nodes, and force; what is None is left out."""
+def scatter(shape, box, rows, half, x, motion, m, V, stress, pressure, force, M, P, F):
+    """Add mass and momentum to the nodes, and force; what is None is left out.
+
+    `motion`: v, and C or None.
+    """
     S = width(shape)
+    v, C = motion
     for p in rows:
         I, wx = stencil_along(0, shape, box, half, x, p)
         J, wy = stencil_along(1, shape, box, half, x, p)
         K, wz = stencil_along(2, shape, box, half, x, p)
         mass = m[p]
-        momentum = plus(ZERO, mass, (v[p, 0], v[p, 1], v[p, 2]))
         f = force[p, 0], force[p, 1], force[p, 2]
         u = -V[p] * pressure[p]
         xx, yy, zz = u + V[p] * stress[p, 0], u + V[p] * stress[p, 1], u + V[p] * stress[p, 2]
@@ -79,7 +75,8 @@ def scatter(shape, box, rows, half, x, v, m, V, stress, pressure, force, M, P, F
                     w = wx[i] * wy[j] * wz[k]
                     if M is not None:
                         M[n] += w * mass
-                        add(P, n, plus(ZERO, w, momentum))
+                        u = velocity_at(v, C, way(box, n, x, p), p)
+                        add(P, n, plus(ZERO, w * mass, u))
                     if F is not None:
                         gx, gy, gz = slopes(wx, wy, wz, i, j, k, box.cell)
                         total = plus(ZERO, w, f)
@@ -119,20 +116,22 @@ def held(free, n, a):
 
 
 @compiled
-def gather(shape, box, law, rotation, rows, half, x, v, own, nodes, A, drift, dt, h):
+def gather(shape, box, law, rotation, rows, half, x, motion, own, nodes, A, drift, dt, h):
     """Change v by the nodal A, move x with `drift`, strain with U; what is None is left out.
 
-    `law` None: no strain; `own`: masses or None, volumes, stresses, variables of the law, given
-    divergences or None, deformation gradients or None; `nodes`: M and U.
+    `law` None: no strain; `motion`: transfer or None, whether its gradient is fitted, v, C or None;
+    `own`: masses or None, volumes, stresses, variables of the law, given divergences or None,
+    deformation gradients or None; `nodes`: M and U.
     """
     S = width(shape)
+    transfer, fits, v, C = motion
     m, V, stress, state, θ, F = own
     M, U = nodes
     for p in rows:
         I, wx = stencil_along(0, shape, box, half, x, p)
         J, wy = stencil_along(1, shape, box, half, x, p)
         K, wz = stencil_along(2, shape, box, half, x, p)
-        a = u = dx = dy = dz = ZERO
+        a = u = new = D = dx = dy = dz = bx = by = bz = ZERO
         mass = 0.0
         for i in range(S):
             for j in range(S):
@@ -143,17 +142,28 @@ def gather(shape, box, law, rotation, rows, half, x, v, own, nodes, A, drift, dt
                         a = plus(a, w, vector(A, n))
                     if drift is not None:
                         u = plus(u, w, vector(drift, n))
-                    if law is not None:
-                        gx, gy, gz = slopes(wx, wy, wz, i, j, k, box.cell)
-                        nodal = vector(U, n)
-                        dx, dy, dz = plus(dx, gx, nodal), plus(dy, gy, nodal), plus(dz, gz, nodal)
-                        mass += w * M[n]
+                    gx, gy, gz = slopes(wx, wy, wz, i, j, k, box.cell)
+                    nodal, d = vector(U, n), way(box, n, x, p)
+                    dx, dy, dz = plus(dx, gx, nodal), plus(dy, gy, nodal), plus(dz, gz, nodal)
+                    mass += w * M[n]
+                    new, D = plus(new, w, nodal), plus(D, w, (d[0] ** 2, d[1] ** 2, d[2] ** 2))
+                    bx, by = plus(bx, w * d[0], nodal), plus(by, w * d[1], nodal)
+                    bz = plus(bz, w * d[2], nodal)
         if law is not None:
             confine(law, box.mesh, x, mass, m, V, state, p)
-            dx, dy, dz = with_divergence(θ, dx, dy, dz, p)
-            strain(law, rotation, dx, dy, dz, V, stress, state, F, p, dt)
+            ex, ey, ez = with_divergence(θ, dx, dy, dz, p)
+            strain(law, rotation, ex, ey, ez, V, stress, state, F, p, dt)
+        if fits:
+            bx, by, bz = (
+                plus(ZERO, 1 / D[0], bx),
+                plus(ZERO, 1 / D[1], by),
+                plus(ZERO, 1 / D[2], bz),
+            )
+            keep(A, C, (bx, by, bz), p)
+        else:
+            keep(A, C, (dx, dy, dz), p)
         for c in range(3):
-            v[p, c] += h * a[c]
+            v[p, c] = new_velocity(transfer, A, h, v[p, c], new[c], a[c])
             x[p, c] += dt * u[c]
 
 

@@ -134,6 +134,8 @@ CASES = {
     "neo-Hookean": {"materials": [HYPERELASTIC, ELASTIC]},
     "energy, neo-Hookean": ENERGY | {"materials": [HYPERELASTIC, ELASTIC]},
     "prescribed velocity": {"prescribed_velocity": [PUSHED]},
+    "APIC, prescribed velocity": {"transfer": "apic", "prescribed_velocity": [PUSHED]},
+    "TPIC, MUSL, energy": ENERGY | {"transfer": "tpic", "stress_scheme_update": "MUSL"},
     "two phases": WET,
     "two phases, MUSL": WET | {"stress_scheme_update": "MUSL"},
     "two phases, kinetic damping": WET | KINETIC,

@@ -19,7 +19,7 @@ LEVELS = (
     {"parameters", "numerics", "naming", "values", "positions", "effect"},
     {"region", "listed", "action", "formulation"},
     {"state"},
-    {"shapes", "materials", "bodies", "boundaries", "loads", "damping", "output"},
+    {"shapes", "materials", "bodies", "boundaries", "loads", "damping", "transfers", "output"},
     {"mpm"},
     {"run"},
     {"case"},

@@ -70,6 +70,7 @@ def test_numbers_that_cannot_be_calculated_with(wet, keys, capsys):
 
 COUPLING = {"enabled": True, "pore_pressure_field": "pressures.json"}
 PARTS = [
+    ({"transfer": "tpic"}, 'transfer: two phases go with "flip" alone'),
     ({"stress_scheme_update": "USF"}, 'stress_scheme_update: "USF" is for one phase; accepted wi'),
     ({"compatibility": "mpm-geomechanics"}, "compatibility: two phases have no earlier form"),
     ({"hydro_mechanical_coupling": COUPLING}, "hydro_mechanical_coupling: pressures from a file a"),

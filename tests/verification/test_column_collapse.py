@@ -1,12 +1,15 @@
 """A column of aluminium bars collapses as in the experiment: surface, run-out, failure line."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import mpmgeo
+from mpmgeo.damping import NoDamping
+from mpmgeo.transfers import Tpic
 from mpmgeo.verify.expected import compare
 from mpmgeo.verify.heap import Heap, difference
 
@@ -69,6 +72,17 @@ def test_coarse_column():
     assert surface < 0.004
     assert failure < 0.012
     assert front == pytest.approx(RUN_OUT, abs=0.045)
+
+
+@pytest.mark.slow
+def test_coarse_column_without_damping():
+    """With TPIC it needs none: surface within 4 mm, run-out within 20 mm, and it comes to rest."""
+    case = replace(column(0.005), damping=NoDamping(), transfer=Tpic())
+    simulation = mpmgeo.Simulation(case).run()
+    surface, _, front = figures(heap_of(simulation))
+    assert surface < 0.004
+    assert front == pytest.approx(RUN_OUT, abs=0.02)
+    assert simulation.kinetic_energy() < 1e-7
 
 
 @pytest.mark.slow

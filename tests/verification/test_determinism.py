@@ -63,6 +63,14 @@ def test_bits_of_deformation_gradients_do_not_depend_on_threads():
     assert np.abs(one.field("deformation_gradient") - np.eye(3)).max() > 0.05
 
 
+def test_bits_of_affine_particles_do_not_depend_on_threads():
+    one, two = (crash("MUSL", n, transfer="apic", time=0.1).run() for n in (1, 2))
+    for key in FIELDS:
+        assert (one.field(key) == two.field(key)).all(), key
+    for a, b in zip(one.solver.sets, two.solver.sets, strict=True):
+        assert (a.C == b.C).all() and a.C.any()
+
+
 @pytest.mark.parametrize("scheme", ["USL", "MUSL"])
 def test_bits_of_two_phases_do_not_depend_on_threads(scheme):
     water = {

@@ -15,14 +15,24 @@ AMPLITUDE = max(BASE.amplitude)
 EVERY = 8  # steps between samples: 1.5 ms
 
 
-@pytest.mark.parametrize("scheme", ["USL", "MUSL", "NPC"])
-def test_base_moves_as_the_record_says(scheme):
+@pytest.mark.parametrize(
+    "scheme, transfer, most",
+    [
+        ("USL", "flip", 0.04),
+        ("MUSL", "flip", 0.04),
+        ("MUSL", "tpic", 0.005),
+        ("NPC", "flip", 0.04),
+    ],
+)
+def test_base_moves_as_the_record_says(scheme, transfer, most):
     """Nodes of the base within 0.5 % of the amplitude, lowest particles within 4 %, always.
 
     For particles this is said of the components that move, x and y. Vertically they carry a noise
-    of up to 5 % in MUSL that no node sees: the mean of their layer stays within 1.5 %.
+    of up to 5 % in MUSL that no node sees: the mean of their layer stays within 1.5 %. With TPIC
+    there is none: particles are within 0.5 %, too.
     """
-    case = read(FOLDER / "case.json") | {"stress_scheme_update": scheme}
+    keys = {"stress_scheme_update": scheme, "transfer": transfer}
+    case = read(FOLDER / "case.json") | keys
     case["earthquake"]["file"] = str(FOLDER / "base_acceleration.csv")
     simulation = mpmgeo.Simulation(mpmgeo.load_case(case))
     cell = case["mesh"]["cells_dimension"][2]
@@ -39,8 +49,8 @@ def test_base_moves_as_the_record_says(scheme):
         at_particles.append(np.abs(velocity - exact)[:, :2].max())
         at_layer.append(np.abs(velocity.mean(axis=0) - exact).max())
     assert max(at_nodes) < 0.005 * AMPLITUDE
-    assert max(at_particles) < 0.04 * AMPLITUDE
-    assert max(at_layer) < 0.015 * AMPLITUDE
+    assert max(at_particles) < most * AMPLITUDE
+    assert max(at_layer) < min(most, 0.015) * AMPLITUDE
 
 
 def test_the_record_is_what_the_script_writes(tmp_path):

@@ -45,6 +45,11 @@ def test_shared_volume_strain(method):
     check(method, 2, 0.49, (1, 1, 1), volumetric_locking="cells")
 
 
+@pytest.mark.parametrize("scheme, transfer", [("USL", "tpic"), ("MUSL", "tpic"), ("MUSL", "apic")])
+def test_particles_with_a_velocity_gradient(scheme, transfer):
+    check((scheme, GIMP), 2, 0.3, (1, 1, 1), offsets=OFFSETS[::3], transfer=transfer)
+
+
 @pytest.mark.parametrize("edges", EDGES, ids=str)
 @pytest.mark.parametrize("count", [1, 3])
 def test_sizes_of_particles_and_cells(count, edges):

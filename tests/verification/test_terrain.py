@@ -51,6 +51,11 @@ def test_sliding_on_a_tilted_plane(tmp_path, scheme):
     assert abs(way - exact) < 2e-3
 
 
+def test_affine_particles_slide_as_others(tmp_path):
+    way, exact = slides(tmp_path, 30, 0.3, "MUSL", transfer="tpic")
+    assert abs(way - exact) < 2e-3
+
+
 def test_without_friction_nothing_holds_a_block(tmp_path):
     way, exact = slides(tmp_path, 45, 0.0, "USL")
     assert abs(way - exact) < 1e-9

@@ -35,6 +35,7 @@ def particle_sets(case, population, velocity, laws, tool, contact, notes):
                 row=rows,
                 x=population.position[rows],
                 v=velocity[rows],
+                C=np.zeros((len(rows), 3, 3)) if case.transfer.is_affine else None,
                 m=law.density * volume,
                 V=volume,
                 stress=np.zeros((len(rows), 6)),

@@ -67,6 +67,7 @@ def build(case, body_force=None):
         effects=tuple(effect for effect in effects if effect is not None),
         damping=damping,
         early_damping=early,
+        transfer=case.transfer.symbols,
         leaky=legacy,
         cutoff=0.0 if legacy else TOUCH**shape.edge * lightest,
         cells=CellMeans() if case.volumetric_locking == "cells" else None,

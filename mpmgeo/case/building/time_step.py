@@ -40,13 +40,14 @@ def stable_time_step(case, solver, velocity):
     no such step, infinite without particles. It shrinks with speed as the critical one does.
     """
     filtered, speed = is_filtered(solver.scheme), _fastest(velocity)
+    averaged = filtered and not case.transfer.is_affine
     if not stability.has_stable_step(solver.shape, filtered):
         return 0.0
     laws = {law.id: law for law in reversed(case.materials)}
     steps = [inf]
     for s in solver.sets:
         law, half = laws[solver.population.material[s.row[0]]], np.atleast_2d(s.half).min(axis=0)
-        slopes = stability.slopes(solver.shape, filtered, half, case.mesh.cells_dimension)
+        slopes = stability.slopes(solver.shape, averaged, half, case.mesh.cells_dimension)
         two = case.n_phases == 2
         wave = saturation.wave_speed(law) if two else law.sound_speed()
         step = (_of_two_phases if two else _of_one_phase)(case, law, slopes, longest(solver.scheme))

@@ -13,6 +13,7 @@ from mpmgeo.case.meaning.phases import check_phases, note_idle
 from mpmgeo.case.meaning.schemes import check_schemes
 from mpmgeo.case.meaning.slips import warn_of_slips
 from mpmgeo.case.meaning.steps import check_steps
+from mpmgeo.case.meaning.transfers import check_transfers
 from mpmgeo.case.spec import ACTIONS, Case
 from mpmgeo.loads import BaseAcceleration, InTime, PrescribedVelocity
 from mpmgeo.positions import resolution
@@ -31,6 +32,7 @@ def check(draft, report):
     check_schemes(draft, report)
     check_domains(draft, report)
     check_deformation(draft, report)
+    check_transfers(draft, report)
     _check_files(draft, report)
     _check_names(draft, report)
     _check_base(draft, report)

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from mpmgeo.case.kinds import containers
+from mpmgeo.case.kinds import containers, declared
 from mpmgeo.case.reading.places import places
 from mpmgeo.case.spec import Case
 
@@ -73,6 +73,7 @@ def rename(tree, report):
     _truncate_print(tree, report)
     _raise_material(tree, report)
     _take_material_id(tree, report)
+    _open_words(tree)
     _name_entries(tree)
 
 
@@ -156,6 +157,13 @@ def _take_material_id(tree, report):
             if "material_id" not in entry:
                 entry["material_id"] = number
                 report.written[(*path, "material_id")] = "material"
+
+
+def _open_words(tree):
+    """Make an object of a word that stands for one, in small letters whatever its own."""
+    for key, _, field in declared(Case):
+        if field.metadata["word"] and isinstance(tree.get(key), str):
+            tree[key] = {"type": tree[key].casefold()}
 
 
 def _name_entries(tree):

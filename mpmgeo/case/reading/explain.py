@@ -74,6 +74,7 @@ def accepted(schema, is_limit=False, plural=False) -> str:
     if kind != "array":
         null = " or null" if "null" in kinds else ""
         name = ", or a name" if kinds == ["integer", "string"] else ""
+        name = ", or the word of its type" if kinds == ["object", "string"] else name
         return NOUNS[kind][plural] + null + _limits(schema, is_limit) + name
     count = f" of {schema['minItems']}" if schema.get("minItems", 0) > 1 else ""
     if "prefixItems" in schema:

@@ -102,6 +102,8 @@ def _property(key, kind, item, place, definitions):
 def _value(kind, metadata, place, definitions):
     if kind.name == "object":
         one = _reference(kind, place, definitions)
+        if metadata.get("word"):
+            return _or_word(one, kind)
         return _or_list(one) if metadata.get("several") else one
     if kind.is_container:
         entry = _value(kind.item, metadata, (*place, "*"), definitions)
@@ -125,6 +127,12 @@ def _or_list(one):
     """Return the schema of an object, or a list of such objects, from that of an object."""
     choice = {"if": {"type": "array"}, "then": {"items": one}, "else": one}
     return {"type": ["object", "array"], **choice}
+
+
+def _or_word(one, kind):
+    """Return the schema of an object, or of the word of its type, from that of the object."""
+    words = {"enum": [word_of(cls) for cls in kind.classes]}
+    return {"type": ["object", "string"], "if": {"type": "string"}, "then": words, "else": one}
 
 
 def _or_object(one, kind, place, definitions):

@@ -101,25 +101,38 @@ def stencils(shape, half, walls, g, last, p):
 
     `walls`: where shapes end, in cells, or None.
     """
-    S = width(shape)
-    first = min(max(truncate(g - 0.5 * (S - 2)), 0.0), last)
-    w = stencil(shape, g - first - 0.5 * (S - 1), half_size(half, p), cut_of(shape, walls, first))
+    first, w = _stencil(shape, half, walls, g, last, p)
     return first, along(w, 0), along(w, 1), along(w, 2)
 
 
 @inlined
-def locate(here, p):
-    """Return where the records of particle p begin in its tile, and its stencils along x, y, z.
+def _stencil(shape, half, walls, g, last, p):
+    S = width(shape)
+    first = min(max(truncate(g - 0.5 * (S - 2)), 0.0), last)
+    w = stencil(shape, g - first - 0.5 * (S - 1), half_size(half, p), cut_of(shape, walls, first))
+    return first, w
+
+
+@inlined
+def find(here, p):
+    """Return where the records of particle p begin in its tile, and its stencil of all axes.
 
     Sorting puts the first node in 0…3; the clamp keeps round-off, and NaN, from reaching beyond the
     tile.
     """
     g = in_block(here.mesh, here.origin, load_row(here.x, p))
-    first, wx, wy, wz = stencils(here.shape, here.half, here.walls, g, SIDE - 1.0, p)
+    first, w = _stencil(here.shape, here.half, here.walls, g, SIDE - 1.0, p)
     # whole numbers below a million: the product in doubles is exact, and there already
     row = here.rows
     n = (lane(first, 0) * row[1] + lane(first, 1)) * row[2] + lane(first, 2)
-    return int(n) * LANES, wx, wy, wz
+    return int(n) * LANES, w
+
+
+@inlined
+def locate(here, p):
+    """Return where the records of particle p begin in its tile, and its stencils along x, y, z."""
+    n, w = find(here, p)
+    return n, along(w, 0), along(w, 1), along(w, 2)
 
 
 @inlined

@@ -6,6 +6,7 @@ part of m that touches the ground.
 
 from typing import NamedTuple
 
+from mpmgeo.mpm.core.affine import deposit_affine, keep_gradient
 from mpmgeo.mpm.core.domain import deform, moved_with_corners
 from mpmgeo.mpm.core.locking import beside_effective_stress, with_mean_divergence
 from mpmgeo.mpm.core.loops import visit
@@ -22,18 +23,31 @@ from mpmgeo.mpm.core.tile import (
     collect_value,
     deposit,
     deposit_value,
+    find,
     in_block,
     locate,
 )
 from mpmgeo.numerics.jit import inlined
-from mpmgeo.numerics.simd import add, axpy, lane, load_row, pack, quarter, splat, store_row, within
+from mpmgeo.numerics.simd import (
+    add,
+    along,
+    axpy,
+    lane,
+    load_row,
+    pack,
+    quarter,
+    splat,
+    store_row,
+    within,
+)
+from mpmgeo.transfers.transfer import carried
 
 
 class Scatter(NamedTuple):
     """Add mass, momentum and force to the tiles.
 
-    Arrays: v, m, V, stress, or None to leave out the internal force, pressure of a pore fluid or
-    None, load beside gravity or None, mean stresses of cells or None.
+    Arrays: v, velocity gradients or None, m, V, stress, or None to leave out the internal force,
+    pressure of a pore fluid or None, load beside gravity or None, mean stresses of cells or None.
     """
 
     gravity: tuple
@@ -42,12 +56,11 @@ class Scatter(NamedTuple):
 
 @visit.register(Scatter)
 def scatter(work, here, a, p):
-    v, m, V, stress, pressure, force, means = a
+    v, C, m, V, stress, pressure, force, means = a
     g = work.gravity
     weight = pack(1.0, 0.0, 0.0, 0.0, g[0], g[1], g[2], work.tool)
-    n, wx, wy, wz = locate(here, p)
     C0 = loaded(momentum_and_weight(m, v, weight, p), force, p)
-    _deposit_all(here, n, wx, wy, wz, C0, V, stress, pressure, means, p)
+    _deposit_all(here, C0, C, m, V, stress, pressure, means, p)
     return 0
 
 
@@ -60,41 +73,56 @@ def loaded(C0, force, p):
 
 
 @inlined
-def _deposit_all(here, n, wx, wy, wz, C0, V, stress, pressure, means, p):
-    if stress is None:
+def _deposit_all(here, C0, C, m, V, stress, pressure, means, p):
+    if C is not None:
+        C1, C2, C3 = _stressed(here, V, stress, pressure, means, p)
+        deposit_affine(here, m, C, C0, C1, C2, C3, p)
+    elif stress is None:
+        n, wx, wy, wz = locate(here, p)
         deposit_value(here.tiles[0], here.n0 + n, here.rows, wx, wy, wz, C0)
     else:
+        n, wx, wy, wz = locate(here, p)
         _deposit_force(here, n, wx, wy, wz, C0, V, stress, pressure, means, p)
 
 
 @inlined
 def _deposit_force(here, n, wx, wy, wz, C0, V, stress, pressure, means, p):
-    added = beside_effective_stress(here, stress, pressure, means, p)
-    C1, C2, C3 = internal_force(here.mesh, V, stress, added, p)
+    C1, C2, C3 = _stressed(here, V, stress, pressure, means, p)
     deposit(here.tiles[0], here.n0 + n, here.rows, wx, wy, wz, C0, C1, C2, C3)
+
+
+@inlined
+def _stressed(here, V, stress, pressure, means, p):
+    if stress is None:
+        return splat(0.0), splat(0.0), splat(0.0)
+    added = beside_effective_stress(here, stress, pressure, means, p)
+    return internal_force(here.mesh, V, stress, added, p)
 
 
 class Gather(NamedTuple):
     """Move the particles with the nodes and update their stress; tells who left its block.
 
-    Velocities change by h times the acceleration. With v None they stay, and positions follow the
-    velocity that `Velocity` kept. With `law` None volume and stress stay. Domains follow the nodes
-    as they are, and positions with them. Arrays: v, those of `ParticleSet.material` and of its
-    `follower`, mean divergences of cells or None.
+    Velocities change by h times the acceleration, or as another `transfer` says. With v None they
+    stay, and positions follow the velocity that `Velocity` kept. With `law` None volume and stress
+    stay. Domains follow the nodes as they are, and positions with them. Arrays: v, velocity
+    gradients or None, those of `ParticleSet.material` and of its `follower`, mean divergences of
+    cells or None.
     """
 
     law: object
     rotation: object
     dt: float
     h: float
+    transfer: object = None
 
 
 @visit.register(Gather)
 def gather(work, here, a, p):
-    v, material, follower, means = a
-    n, wx, wy, wz = locate(here, p)
-    value, sx, sy, sz = collect(here.source, n, here.rows, wx, wy, wz)
+    v, C, material, follower, means = a
+    n, w = find(here, p)
+    value, sx, sy, sz = collect(here.source, n, here.rows, along(w, 0), along(w, 1), along(w, 2))
     _strained(work, work.law, here, value, sx, sy, sz, means, material, p)
+    keep_gradient(work.transfer, here, C, n, w, sx, sy, sz, p)
     X = _moved(work, here.x, v, value, p)
     X = moved_with_corners(follower, work.dt, here, n, X, p)
     deform(follower, here, sx, sy, sz, work.dt, p)
@@ -108,8 +136,18 @@ def _moved(work, x, v, value, p):
     if v is None:
         return axpy(work.dt, quarter(value, 3), load_row(x, p))
     X = axpy(work.dt, quarter(value, 0), load_row(x, p))
-    store_row(v, p, axpy(work.h, quarter(value, 3), load_row(v, p)))
+    _accelerate(work.transfer, work.h, v, value, p)
     return X
+
+
+@inlined
+def _accelerate(transfer, h, v, value, p):
+    """Give particle p its new velocity, from the sums Σ S r of the node records r."""
+    if transfer is None:
+        store_row(v, p, axpy(h, quarter(value, 3), load_row(v, p)))
+    else:
+        u, a = quarter(value, 0), quarter(value, 3)
+        store_row(v, p, carried(transfer, h, load_row(v, p), u, a))
 
 
 @inlined
@@ -125,23 +163,39 @@ def _strained(work, law, here, value, sx, sy, sz, means, material, p):
 
 
 class Remap(NamedTuple):
-    """Change velocities by h times the acceleration and put the new momentum into the tiles.
+    """Change velocities as in `Gather` and put the new momentum into the tiles.
 
-    Arrays: v, m.
+    Arrays: v, velocity gradients or None, m.
     """
 
     h: float
+    transfer: object = None
 
 
 @visit.register(Remap)
 def remap(work, here, a, p):
-    v, m = a
-    n, wx, wy, wz = locate(here, p)
-    value = collect_value(here.source, n, here.rows, wx, wy, wz)
-    store_row(v, p, axpy(work.h, quarter(value, 3), load_row(v, p)))
-    C0 = momentum_and_weight(m, v, pack(1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), p)
-    deposit_value(here.tiles[0], here.n0 + n, here.rows, wx, wy, wz, C0)
+    v, C, m = a
+    _remap(work, work.transfer, here, v, C, m, p)
     return 0
+
+
+@inlined
+def _remap(work, transfer, here, v, C, m, p):
+    one = pack(1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    if C is None:
+        n, wx, wy, wz = locate(here, p)
+        value = collect_value(here.source, n, here.rows, wx, wy, wz)
+        _accelerate(transfer, work.h, v, value, p)
+        C0 = momentum_and_weight(m, v, one, p)
+        deposit_value(here.tiles[0], here.n0 + n, here.rows, wx, wy, wz, C0)
+    else:
+        n, w = find(here, p)
+        wx, wy, wz = along(w, 0), along(w, 1), along(w, 2)
+        value, sx, sy, sz = collect(here.source, n, here.rows, wx, wy, wz)
+        _accelerate(transfer, work.h, v, value, p)
+        keep_gradient(transfer, here, C, n, w, sx, sy, sz, p)
+        zero = splat(0.0)
+        deposit_affine(here, m, C, momentum_and_weight(m, v, one, p), zero, zero, zero, p)
 
 
 class StrainAndForce(NamedTuple):

@@ -107,6 +107,8 @@ class Tools(Effect):
                     s.v[: s.active, axis] = self.after[s.tool, axis]
                     if s.a is not None:
                         s.a[: s.active, axis] = 0.0  # nothing is to be predicted
+                    if s.C is not None:
+                        s.C[: s.active, :, axis] = 0.0
 
     stopped = end
 

@@ -95,7 +95,8 @@ class PoreFluid(Effect):
         """Change the fluid's velocities and put its new momentum into the tiles."""
         for number, p in enumerate(solver.sets):
             tiles, nodes = (self.flow.tiles,), self.flow.nodes
-            solver.over_particles(Remap(h), p, (p.vf, p.mf), tiles, nodes, fresh=number == 0)
+            arrays = p.vf, None, p.mf
+            solver.over_particles(Remap(h), p, arrays, tiles, nodes, fresh=number == 0)
         solver.clock.lap("fluid: remap")
 
     def before_gather(self, solver, h):

@@ -70,6 +70,11 @@ def assert_same_steps(simulation, twin, steps=STEPS):
         expected = getattr(twin, name)
         found = simulation.field(key) - origin.get(key, 0.0)
         assert_same(found, expected, key)
+    if twin.C is not None:
+        gradient = np.zeros_like(twin.C)
+        for s in simulation.solver.sets:
+            gradient[s.row] = s.C
+        assert_same(gradient, twin.C, "velocity gradient")
     volume = np.zeros_like(twin.V)
     for s in simulation.solver.sets:
         volume[s.row] = s.V
@@ -105,6 +110,31 @@ def test_agree(shape, scheme):
 @pytest.mark.parametrize("scheme", ["USL", "NPC"])
 def test_agree_with_threads(scheme):
     assert_same_steps(*both(scene(stress_scheme_update=scheme), small=False))
+
+
+@pytest.mark.parametrize(
+    "transfer, shape, scheme",
+    [
+        ("tpic", "GIMP", "USL"),
+        ("tpic", "quadratic-bspline", "MUSL"),
+        ("tpic", "cubic-bspline", "USF"),
+        ("apic", "GIMP", "MUSL"),
+        ("apic", "quadratic-bspline", "USL"),
+        ("apic", "cubic-bspline", "USF"),
+    ],
+)
+def test_agree_with_affine_transfers(transfer, shape, scheme):
+    case = scene(shape_function=shape, stress_scheme_update=scheme, transfer=transfer)
+    simulation, twin = both(case)
+    random = np.random.default_rng(8)
+    for s in simulation.solver.sets:
+        s.C[:] = random.uniform(-30, 30, s.C.shape)
+        twin.C[s.row] = s.C
+    assert_same_steps(simulation, twin)
+
+
+def test_agree_with_a_blend():
+    assert_same_steps(*both(scene(transfer={"type": "flip", "flip": 0.9})))
 
 
 @pytest.mark.parametrize(
