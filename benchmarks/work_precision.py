@@ -22,10 +22,24 @@ from mpmgeo.run.watch import Diverged
 from mpmgeo.verify.problems import PROBLEMS
 
 COMBOS = [
-    *("GIMP:USL", "GIMP:MUSL", "quadratic-bspline:USL", "quadratic-bspline:MUSL"),
-    *("cubic-bspline:USL", "cubic-bspline:MUSL", "linear:MUSL"),
+    "linear:MUSL",
+    *(
+        f"{shape}:{scheme}{transfer}"
+        for shape in ("GIMP", "quadratic-bspline", "cubic-bspline", "LME")
+        for scheme in ("USL", "MUSL")
+        for transfer in ("", ":transfer=tpic")
+    ),
+    *("LME:NPC", "cubic-bspline:NPC", "cubic-bspline:NPC-CD"),
 ]
-CELLS = [4, 8, 16]
+CELLS = {
+    "axial_vibration": [8, 16, 32],
+    "axis_aligned": [4, 8, 16],
+    "vortex": [4, 8, 16],
+    "ring": [4, 8, 16],
+    "compaction": [10, 20, 40],
+    "colliding_discs": [10, 20, 40],
+    "dyka_bar": [20, 40, 134],
+}
 COLUMNS = ("problem", "combination", "cells", "particles", "steps", "seconds", "error", "front")
 
 
@@ -118,14 +132,14 @@ def write(name, rows):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("problems", nargs="*", help=f"of {', '.join(PROBLEMS)}; without: all")
-    parser.add_argument("--cells", type=int, nargs="+", default=CELLS)
+    parser.add_argument("--cells", type=int, nargs="+")
     parser.add_argument("--combos", nargs="+", default=COMBOS, metavar="SHAPE:SCHEME[:KEY=VALUE]")
     arguments = parser.parse_args()
     unknown = set(arguments.problems) - set(PROBLEMS)
     if unknown:
         parser.error(f"there is no problem {min(unknown)}; there are {', '.join(PROBLEMS)}")
     for name in arguments.problems or PROBLEMS:
-        rows = race(name, arguments.cells, arguments.combos)
+        rows = race(name, arguments.cells or CELLS[name], arguments.combos)
         RESULTS.mkdir(exist_ok=True)
         write(name, rows)
         draw(name, rows)

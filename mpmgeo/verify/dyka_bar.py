@@ -10,8 +10,11 @@ Source: Dyka and Ingel (1995), Computers & Structures 57, 573–580; d'Alembert'
 
 from dataclasses import dataclass
 from math import ceil, sqrt
+from typing import ClassVar
 
 import numpy as np
+
+from mpmgeo.simulation import Simulation
 
 GAUSS = (0.5 - 0.5 / sqrt(3.0), 0.5 + 0.5 / sqrt(3.0))
 """Places of two particles in a cell, in cells: the points of Gauss's quadrature."""
@@ -23,6 +26,8 @@ FREE_CELLS = 2  # of the mesh before the free end
 @dataclass(frozen=True)
 class DykaBar:
     """Bar of length [m], density [kg/m³], young [Pa], whose first quarter moves off [m/s]."""
+
+    name: ClassVar[str] = "dyka_bar"
 
     length: float = 0.1333
     density: float = 7833.0
@@ -95,6 +100,18 @@ class DykaBar:
     def _body(self, position, h, **keys):
         listing = {"position": position.tolist(), "volume": [h**3 / 8] * len(position)}
         return {"type": "particles", "material_id": 1, "particles": listing} | keys
+
+    def simulation(
+        self, cells, shape="GIMP", scheme="USL", particles=2, courant=0.1, **keys
+    ) -> Simulation:
+        """Return the simulation of the bar, as those of `verify.problem`; ValueError but for 2."""
+        if particles != 2:
+            raise ValueError("the bar has two particles a cell and direction")
+        return Simulation(self.case(cells, scheme, shape, courant, **keys))
+
+    def error(self, simulation) -> float:
+        """Return the error of velocity in the mean square [m/s]."""
+        return self.errors(simulation)[0]
 
     def errors(self, simulation) -> tuple[float, float]:
         """Return the errors, in the mean square, of velocity [m/s] and axial stress [Pa]."""
