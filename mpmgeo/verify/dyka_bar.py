@@ -19,7 +19,6 @@ from mpmgeo.simulation import Simulation
 GAUSS = (0.5 - 0.5 / sqrt(3.0), 0.5 + 0.5 / sqrt(3.0))
 """Places of two particles in a cell, in cells: the points of Gauss's quadrature."""
 
-QUARTERS = (0.25, 0.75)
 FREE_CELLS = 2  # of the mesh before the free end
 
 
@@ -56,21 +55,23 @@ class DykaBar:
         way, Z = self.wave_speed * time, self.density * self.wave_speed
         return 0.5 * Z * (self._continued(x + way) - self._continued(x - way))
 
-    def case(self, cells: int, scheme="NPC", shape="LME", courant=0.1, **keys) -> dict:
-        """Return the case of the bar, one cell thick, with two particles a cell and direction.
+    def case(self, cells: int, scheme="NPC", shape="LME", courant=0.1, particles=2, **keys) -> dict:
+        """Return the case of the bar, one cell thick, with `particles` a cell and direction.
 
-        They lie at the points of Gauss's quadrature, with GIMP at the quarters of the cell.
+        Two lie at the points of Gauss's quadrature, but evenly with GIMP, as any other number.
         """
         h = self.length / cells
         steps = ceil(self.time / (courant * h / self.wave_speed))
-        places = QUARTERS if shape == "GIMP" else GAUSS
+        evenly = (np.arange(particles) + 0.5) / particles
+        places = GAUSS if particles == 2 and shape != "GIMP" else evenly
         along = (np.arange(cells)[:, None] + places).ravel()
         x, y, z = np.meshgrid(along, places, places, indexing="ij")
         position = h * np.stack([x.ravel(), y.ravel(), z.ravel()], axis=1)
+        volume = (h / particles) ** 3
         moves = x.ravel() * h < self.length / 4
         bodies = [
-            self._body(position[moves], h, initial_velocity=[self.velocity, 0.0, 0.0]),
-            self._body(position[~moves], h),
+            self._body(position[moves], volume, initial_velocity=[self.velocity, 0.0, 0.0]),
+            self._body(position[~moves], volume),
         ]
         return {
             "title": f"Bar of Dyka and Ingel, {cells} cells, {scheme}, {shape}",
@@ -97,17 +98,15 @@ class DykaBar:
             "n_threads": 1,
         } | keys
 
-    def _body(self, position, h, **keys):
-        listing = {"position": position.tolist(), "volume": [h**3 / 8] * len(position)}
+    def _body(self, position, volume, **keys):
+        listing = {"position": position.tolist(), "volume": [volume] * len(position)}
         return {"type": "particles", "material_id": 1, "particles": listing} | keys
 
     def simulation(
         self, cells, shape="GIMP", scheme="USL", particles=2, courant=0.1, **keys
     ) -> Simulation:
-        """Return the simulation of the bar, as those of `verify.problem`; ValueError but for 2."""
-        if particles != 2:
-            raise ValueError("the bar has two particles a cell and direction")
-        return Simulation(self.case(cells, scheme, shape, courant, **keys))
+        """Return the simulation of the bar, as those of `verify.problem`."""
+        return Simulation(self.case(cells, scheme, shape, courant, particles, **keys))
 
     def error(self, simulation) -> float:
         """Return the error of velocity in the mean square [m/s]."""
@@ -116,6 +115,6 @@ class DykaBar:
     def errors(self, simulation) -> tuple[float, float]:
         """Return the errors, in the mean square, of velocity [m/s] and axial stress [Pa]."""
         x = simulation.field("position")[:, 0] - simulation.field("displacement")[:, 0]
-        v = simulation.field("velocity")[:, 0] - self.velocity_at(x, self.time)
-        σ = simulation.field("stress")[:, 0] - self.stress_at(x, self.time)
+        v = simulation.field("velocity")[:, 0] - self.velocity_at(x, simulation.time)
+        σ = simulation.field("stress")[:, 0] - self.stress_at(x, simulation.time)
         return float(np.sqrt(np.mean(v**2))), float(np.sqrt(np.mean(σ**2)))

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mpmgeo.verify.dyka_bar import GAUSS, QUARTERS
+from mpmgeo.verify.dyka_bar import GAUSS
 
 
 class Means(NamedTuple):
@@ -55,7 +55,7 @@ class SoftBlock:
         They lie at the points of Gauss's quadrature, with GIMP at the quarters of the cell.
         """
         cells, h = round(self.height / self.cell), self.cell
-        places = QUARTERS if shape == "GIMP" else GAUSS
+        places = (0.25, 0.75) if shape == "GIMP" else GAUSS
         up = (np.arange(cells)[:, None] + places).ravel()
         x, y, z = (h * a.ravel() for a in np.meshgrid(places, places, up, indexing="ij"))
         step = courant * h / sqrt(self.young / self.density)

@@ -67,7 +67,8 @@ def test_problems_have_one_interface(name):
     assert problem.time / simulation.time_step == pytest.approx(
         round(problem.time / simulation.time_step)
     )
-    if name != "compaction":  # whose load is not there yet
+    # the load of the one is not there yet, the velocity of the other jumps at a particle
+    if name not in ("compaction", "dyka_bar"):
         assert problem.error(simulation) < 1e-12
 
 
