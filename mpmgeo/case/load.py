@@ -10,6 +10,7 @@ from mpmgeo.case.meaning.draft import draft
 from mpmgeo.case.reading.aliases import rename
 from mpmgeo.case.reading.explain import validate
 from mpmgeo.case.reading.inactive import drop_inactive
+from mpmgeo.case.reading.method import fill_method
 from mpmgeo.case.reading.named import number_names
 from mpmgeo.case.reading.text import read, survey, survey_moved
 from mpmgeo.case.report import CaseError, CaseWarning, Report, show
@@ -48,6 +49,7 @@ def _tree(source, report):
     if not survey(tree, report):
         report.raise_errors()
     rename(tree, report)
+    fill_method(tree)
     drop_inactive(tree, report)
     survey_moved(tree, report)
     number_names(tree, report)

@@ -17,6 +17,11 @@ Transfer = reduce(or_, TRANSFERS)
 class Method:
     """How the equations of motion are solved."""
 
+    method: str | None = parameter(
+        "Choice of all of it that a case does not make itself; absent: the defaults",
+        choices=("recommended",),
+        default=None,
+    )
     stress_scheme_update: str = parameter(
         "When stresses are updated: last, last with modified velocities, first, or between a "
         "predictor and a corrector",

@@ -29,6 +29,8 @@ def check_schemes(draft, report):
     if case.get("compatibility") is not None:
         for key, known in KNOWN.items():
             _check_compatible(key, case.get(key), known.AS_MPM_GEOMECHANICS, report)
+        if case.get("method") is not None:
+            report.error(("method",), "MPM-Geomechanics has its own; leave it or compatibility out")
         if case.get("volumetric_locking") == "cells":
             message = "MPM-Geomechanics knows no cure of locking; leave it or compatibility out"
             report.error(("volumetric_locking",), message)
