@@ -32,11 +32,6 @@ def test_what_a_case_says_itself_counts(key, value):
     assert {k: found[k] for k in others} == {k: RECOMMENDED[k] for k in others}
 
 
-def test_an_older_spelling_counts_as_said():
-    case = mpmgeo.load_case(two_blocks(method="recommended") | {"stressSchemeUpdate;": "USF"})
-    assert case.stress_scheme_update == "USF"
-
-
 def test_two_phases_have_no_other_transfer():
     case = two_blocks(method="recommended", n_phases=2)
     case["materials"] = [law | WATER for law in case["materials"]]
