@@ -1,6 +1,6 @@
 """Error against run time: problems with exact solutions, in shapes, schemes and refinements.
 
-python benchmarks/work_precision.py [ring vortex …] [--cells 4 8 16] [--combos GIMP:USL …]
+python benchmarks/work_precision.py [ring vortex …] [--cells 4 8 16] [--combos GIMP:USL …] [--draw]
 
 A combination is a shape, a scheme and what else `Problem.simulation` takes, keys of the case too,
 as `cubic-bspline:MUSL:particles=3:courant=0.1`. Every run has one thread; what counts is processor
@@ -14,6 +14,7 @@ import json
 import time
 import warnings
 from math import inf, isfinite
+from pathlib import Path
 
 from contest import RESULTS, machine
 
@@ -40,6 +41,15 @@ CELLS = {
     "colliding_discs": [10, 20, 40],
     "dyka_bar": [20, 40, 134],
 }
+COLOURS = {
+    "linear": "tab:gray",
+    "GIMP": "tab:blue",
+    "quadratic-bspline": "tab:orange",
+    "cubic-bspline": "tab:red",
+    "LME": "tab:green",
+}
+MARKERS = {"USL": "o", "MUSL": "s", "USF": "D", "NPC": "^", "NPC-CD": "v"}
+PICTURES = Path(__file__).parents[1] / "manual" / "pictures"
 COLUMNS = ("problem", "combination", "cells", "particles", "steps", "seconds", "error", "front")
 
 
@@ -91,6 +101,16 @@ def race(name, refinements, combos):
     ]
 
 
+def style(combo):
+    """Return how the line of a combination looks: colour of the shape, marker of the scheme."""
+    shape, scheme, *others = combo.split(":")
+    return {
+        "color": COLOURS.get(shape, "black"),
+        "marker": MARKERS.get(scheme, "x"),
+        "linestyle": "--" if "transfer=tpic" in others else "-",
+    }
+
+
 def draw(name, rows):
     """Draw error against seconds, a line for every combination, and the Pareto front."""
     import matplotlib
@@ -98,29 +118,40 @@ def draw(name, rows):
     matplotlib.use("agg")
     import matplotlib.pyplot as plt
 
-    figure, axes = plt.subplots(figsize=(7, 5), layout="constrained")
+    figure, axes = plt.subplots(figsize=(9, 5), layout="constrained")
     for combo in dict.fromkeys(row[1] for row in rows):
         line = [row[5:7] for row in rows if row[1] == combo and isfinite(row[6])]
         if line:
-            axes.plot(*zip(*line, strict=True), "o-", markersize=4, linewidth=1, label=combo)
+            label = combo.replace(":transfer=", ", ").replace(":", ", ")
+            looks = {"markersize": 4, "linewidth": 1, "label": label} | style(combo)
+            axes.plot(*zip(*line, strict=True), **looks)
     best = sorted(row[5:7] for row in rows if row[7])
     if best:
-        label = "Pareto front"
-        axes.plot(
-            *zip(*best, strict=True), "k--", marker="o", markersize=9, fillstyle="none", label=label
-        )
+        axes.plot(*zip(*best, strict=True), "ko", markersize=10, fillstyle="none", label="front")
     axes.set(xscale="log", yscale="log", xlabel="processor time [s]", ylabel="error", title=name)
     axes.grid(True, which="both", linewidth=0.3)
-    axes.legend(fontsize=7)
-    path = RESULTS / f"work_precision_{name}.png"
-    figure.savefig(path, dpi=110)
+    figure.legend(fontsize=7, loc="outside right upper")
+    path = PICTURES / f"work_precision_{name}.png"
+    figure.savefig(path, dpi=90)
     plt.close(figure)
     print(f"drawn in {path}")
 
 
+def path_of(name):
+    """Return where the rows of a problem are written."""
+    return RESULTS / f"work_precision_{name}.csv"
+
+
+def read(name):
+    """Return the rows of a problem as they were written."""
+    with path_of(name).open(encoding="utf-8") as file:
+        _, _, *rows = csv.reader(file)
+    return [(*row[:5], float(row[5]), float(row[6]), int(row[7])) for row in rows]
+
+
 def write(name, rows):
     """Write the rows of a problem as csv."""
-    path = RESULTS / f"work_precision_{name}.csv"
+    path = path_of(name)
     with path.open("w", newline="", encoding="utf-8") as file:
         file.write(f"# {machine()}\n")
         lines = csv.writer(file, lineterminator="\n")
@@ -132,6 +163,7 @@ def write(name, rows):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("problems", nargs="*", help=f"of {', '.join(PROBLEMS)}; without: all")
+    parser.add_argument("--draw", action="store_true", help="draw what has been measured before")
     parser.add_argument("--cells", type=int, nargs="+")
     parser.add_argument("--combos", nargs="+", default=COMBOS, metavar="SHAPE:SCHEME[:KEY=VALUE]")
     arguments = parser.parse_args()
@@ -139,6 +171,9 @@ def main():
     if unknown:
         parser.error(f"there is no problem {min(unknown)}; there are {', '.join(PROBLEMS)}")
     for name in arguments.problems or PROBLEMS:
+        if arguments.draw:
+            draw(name, read(name))
+            continue
         rows = race(name, arguments.cells or CELLS[name], arguments.combos)
         RESULTS.mkdir(exist_ok=True)
         write(name, rows)

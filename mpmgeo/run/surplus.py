@@ -93,6 +93,7 @@ def _cause(simulation):
         return (
             f"likely cause: {case.stress_scheme_update}, which lets a body that flies through the "
             f"cells vibrate more and more (its speed is {speed:.3g} m/s); try a time step of "
-            f"{SMALL * simulation.critical_time_step:.2g} s, or USL, which damps vibrations"
+            f'{SMALL * simulation.critical_time_step:.2g} s, or "transfer": "tpic" as in "method": '
+            '"recommended", with which bodies in flight gain nothing'
         )
     return f"likely causes: the time step of {dt:.4g} s, or a law whose flow creates energy"

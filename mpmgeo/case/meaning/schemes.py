@@ -7,7 +7,8 @@ from mpmgeo.values import shown
 LINEAR_LAST = (
     '"linear" with the scheme USL diverges in plain cases, such as a block that falls, whatever '
     "the time step: nodes that a particle just reaches are too light; "
-    '"stress_scheme_update": "MUSL" mends it'
+    '"stress_scheme_update": "MUSL" mends it, and so does another shape, as in "method": '
+    '"recommended"'
 )
 
 KNOWN = {"shape_function": shapes, "stress_scheme_update": schemes}
