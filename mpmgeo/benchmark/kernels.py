@@ -99,7 +99,7 @@ class Scatter:
     def run(self):
         """Do the work that is timed."""
         g, s = self.scene.grid, self.scene.particles
-        arrays = (self.velocity, None, s.m, s.V, self.stress, None, self.force)
+        arrays = (self.velocity, None, s.m, s.V, self.stress, None, self.force, None)
         self.scene.visit(ScatterWork(ZERO, 0.0), arrays, (g.tiles,))
         self.scene.over_nodes(Task(SumTiles(), (g.tiles,), g.scratch, (g.nodes,)))
 

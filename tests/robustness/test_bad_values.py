@@ -39,7 +39,7 @@ BAD = [
     (("critical_time_step_multiplier",), -0.1, "critical_time_step_multiplier: -0.1"),
     # words and switches
     (("stress_scheme_update",), "usl", f'stress_scheme_update: "usl" {NOT} "USL", "MUSL"'),
-    (("stress_scheme_update",), "NPC", f'stress_scheme_update: "NPC" {NOT}'),
+    (("stress_scheme_update",), "RK4", f'stress_scheme_update: "RK4" {NOT}'),
     (("stress_scheme_update",), 1, f"stress_scheme_update: 1 {NOT}"),
     (("shape_function",), "LINEAR", 'did you mean "linear"?'),
     (("shape_function",), "", f'shape_function: "" {NOT} "GIMP", "linear"'),
