@@ -3,7 +3,7 @@
 python benchmarks/dyka_bar.py [cells …]
 
 The errors of velocity and stress in the mean square at the end of the run, in 3D, one cell of
-cross-section, are written to benchmarks/results/dyka_bar.csv.
+cross-section, take their places in benchmarks/results/dyka_bar.csv.
 """
 
 import csv
@@ -13,7 +13,7 @@ from itertools import product
 from pathlib import Path
 
 import mpmgeo
-from mpmgeo.mpm.incidents import Unsound
+from mpmgeo.run.watch import Diverged
 from mpmgeo.verify.dyka_bar import DykaBar
 
 FILE = Path(__file__).parent / "results" / "dyka_bar.csv"
@@ -32,21 +32,40 @@ def measure(cells, scheme, shape):
     simulation = mpmgeo.Simulation(case)
     try:
         simulation.run()
-    except Unsound:
+    except Diverged:
         return float("nan"), float("nan")
     return BAR.errors(simulation)
 
 
+def known():
+    """Return the rows that have been written before, by cells, scheme and shape."""
+    if not FILE.exists():
+        return {}
+    with FILE.open(encoding="utf-8") as file:
+        _, *rows = csv.reader(file)
+    return {(int(row[0]), *row[1:3]): row[3:] for row in rows}
+
+
+def write(rows):
+    """Write the rows in order of cells, schemes and shapes."""
+    words = [word_of(shape) for shape in SHAPES]
+    place = {key: (key[0], SCHEMES.index(key[1]), words.index(key[2])) for key in rows}
+    with FILE.open("w", newline="", encoding="utf-8") as file:
+        lines = csv.writer(file, lineterminator="\n")
+        lines.writerow(("cells", "scheme", "shape", "velocity", "stress"))
+        lines.writerows((*key, *rows[key]) for key in sorted(rows, key=place.get))
+
+
+def word_of(shape):
+    """Return how a shape is called in the table."""
+    return shape if isinstance(shape, str) else f"LME {shape:g}"
+
+
 if __name__ == "__main__":
     warnings.simplefilter("ignore", mpmgeo.CaseWarning)
-    rows = []
-    for cells, scheme, shape in product(
-        map(int, sys.argv[1:]) if sys.argv[1:] else CELLS, SCHEMES, SHAPES
-    ):
+    wanted = tuple(map(int, sys.argv[1:])) or CELLS
+    for cells, scheme, shape in product(wanted, SCHEMES, SHAPES):
         velocity, stress = measure(cells, scheme, shape)
-        word = shape if isinstance(shape, str) else f"LME {shape:g}"
-        rows.append((cells, scheme, word, f"{velocity:.4f}", f"{stress:.4g}"))
-        print(*rows[-1], flush=True)
-    with FILE.open("w", newline="", encoding="utf-8") as file:
-        head = ("cells", "scheme", "shape", "velocity", "stress")
-        csv.writer(file, lineterminator="\n").writerows([head, *rows])
+        key = cells, scheme, word_of(shape)
+        print(*key, f"{velocity:.4f}", f"{stress:.4g}", flush=True)
+        write(known() | {key: (f"{velocity:.4f}", f"{stress:.4g}")})
