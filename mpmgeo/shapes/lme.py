@@ -30,7 +30,7 @@ from mpmgeo.shapes.maximum_entropy import (
     weights_and_slopes,
 )
 from mpmgeo.shapes.shape import stencil
-from mpmgeo.shapes.wall import HAIR
+from mpmgeo.shapes.wall import HAIR, is_cut
 
 NARROWEST, WIDEST = 3, 14  # nodes along an axis
 
@@ -101,27 +101,40 @@ def _of_width(count):
 
 def lme(shape, s, l, cut):
     """Return what `stencil` does for all shapes of this file."""
-    last = 0.5 * (len(shape.a) - 1.0) - HAIR
-    s = min(max(s, cut[0] - last), last - cut[1])
-    return tilted(shape, s, -s - 0.5 * (len(shape.a) - 1.0), cut)
+    return tilted(shape, s, cut)
 
 
-def tilted(shape, s, t, cut):
-    """Return weights and slopes at s; t: the first of the tⱼ."""
-    if shape.table is None or cut[0] + cut[1] > 0.0:
-        return _of_numbers(shape, s, t, cut)
-    return weights_and_slopes(shape.a, looked_up(shape.table, s), t)
+def tilted(shape, s, cut):
+    """Return weights and slopes at s."""
+    if shape.table is None or is_cut(cut):
+        return _of_numbers(shape, s, cut)
+    return weights_and_slopes(shape.a, looked_up(shape.table, s), first_of(shape, s))
 
 
 @inlined
-def _of_numbers(shape, s, t, cut):
-    a = kept(shape.a, 1.0 - cut[0], len(shape.a) - cut[1])
+def first_of(shape, s):
+    """Return the first of the tⱼ."""
+    return -s - 0.5 * (len(shape.a) - 1.0)
+
+
+@inlined
+def inside(shape, s, cut):
+    """Return s as a place between the walls."""
+    last = 0.5 * (len(shape.a) - 1.0) - HAIR
+    return min(max(s, cut[0] - last), last - cut[1])
+
+
+@inlined
+def _of_numbers(shape, s, cut):
+    s = inside(shape, s, cut)
+    a, t = kept(shape.a, 1.0 - cut[0], len(shape.a) - cut[1]), first_of(shape, s)
     return weights_and_slopes(a, between_walls(shape, a, s, t, cut[0], cut[1]), t)
 
 
 @inlined
-def _of_axes(shape, s, t, cut):
-    a = kept(shape.a, 1.0 - cut[0], len(shape.a) - cut[1])
+def _of_axes(shape, s, cut):
+    s = inside(shape, s, cut)
+    a, t = kept(shape.a, 1.0 - cut[0], len(shape.a) - cut[1]), first_of(shape, s)
     x, y, z = along(a, 0), along(a, 1), along(a, 2)
     below, above = cut
     r = pack4(
@@ -134,29 +147,18 @@ def _of_axes(shape, s, t, cut):
 
 
 @overload(tilted, jit_options=INLINED)
-def _tilted(shape, s, t, cut):
+def _tilted(shape, s, cut):
     vectors = isinstance(s, Vector)
     search, look = (_of_axes, looked_up_of_axes) if vectors else (_of_numbers, looked_up)
     if isinstance(shape[2], types.NoneType):
         return search
 
-    def values(shape, s, t, cut):
-        if is_cut(cut[0] + cut[1]):
-            return search(shape, s, t, cut)
-        return weights_and_slopes(shape.a, look(shape.table, s), t)
+    def values(shape, s, cut):
+        if is_cut(cut):
+            return search(shape, s, cut)
+        return weights_and_slopes(shape.a, look(shape.table, s), first_of(shape, s))
 
     return values
-
-
-def is_cut(count):
-    """Tell whether there are nodes beyond walls, along any axis; the fourth lane is none."""
-
-
-@overload(is_cut, jit_options=INLINED)
-def _is_cut(count):
-    if isinstance(count, Vector):
-        return lambda count: lane(count, 0) + lane(count, 1) + lane(count, 2) > 0.0
-    return lambda count: count > 0.0
 
 
 def kept(a, low, high):

@@ -12,10 +12,30 @@ Source: Steffen, Kirby and Berzins (2008), Int. J. Numer. Meth. Engng 76, 922–
 that differ at walls; the rule is that of a field without curvature at the wall.
 """
 
-from mpmgeo.numerics.jit import inlined
+from numba.extending import overload
+
+from mpmgeo.numerics.jit import INLINED, inlined
+from mpmgeo.numerics.simd import Vector, lane
 
 HAIR = 2.0**-50
 """Cells that particles keep from a wall, where N₁ has a slope but no weight; as `LinearInside`."""
+
+
+def is_cut(cut):
+    """Tell whether a wall cuts the stencil, along any axis; where none does, nothing is to do."""
+    return cut[0] + cut[1] > 0.0
+
+
+@overload(is_cut, jit_options=INLINED)
+def _is_cut(cut):
+    if not isinstance(cut[0], Vector):
+        return is_cut
+
+    def along_any_axis(cut):
+        count = cut[0] + cut[1]  # the fourth lane is no axis
+        return lane(count, 0) + lane(count, 1) + lane(count, 2) > 0.0
+
+    return along_any_axis
 
 
 @inlined
