@@ -75,7 +75,7 @@ class LocalMaxEnt:
 @lru_cache
 def _shape(γ, count):
     a = coefficients(γ, count)
-    return _SHAPES[count](exp(-γ), a, tabulated(a))
+    return _of_width(count)(exp(-γ), a, tabulated(a))
 
 
 class Row(NamedTuple):
@@ -92,6 +92,7 @@ class Row(NamedTuple):
         return hash(self.a)
 
 
+@lru_cache
 def _of_width(count):
     """Return the type of shapes of a width."""
     shape = type(f"Lme{count}", (Row,), {"__slots__": (), "width": count, "edge": 2, "cuts": True})
@@ -204,6 +205,3 @@ def between_walls(shape, a, s, t, below, above):
 def without_walls(table, s, r):
     """Return r of a row without walls if there is a table of it, else r."""
     return r if table is None else looked_up(table, s)
-
-
-_SHAPES = {count: _of_width(count) for count in range(NARROWEST, WIDEST + 1)}
