@@ -13,7 +13,7 @@ from itertools import product
 from pathlib import Path
 
 import mpmgeo
-from mpmgeo.run.watch import Diverged
+from mpmgeo.mpm.incidents import Unsound
 from mpmgeo.verify.dyka_bar import DykaBar
 
 FILE = Path(__file__).parent / "results" / "dyka_bar.csv"
@@ -31,8 +31,8 @@ def measure(cells, scheme, shape):
     case = BAR.case(cells, scheme, shape if isinstance(shape, str) else "LME", **keys)
     simulation = mpmgeo.Simulation(case)
     try:
-        simulation.run()
-    except Diverged:
+        simulation.step(round(BAR.time / simulation.time_step))  # a step more would move the jumps
+    except Unsound:
         return float("nan"), float("nan")
     return BAR.errors(simulation)
 
