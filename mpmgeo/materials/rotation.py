@@ -1,10 +1,13 @@
 """Objective rates: how the old stress turns with its particle, before the law sees it.
 
-    Jaumann          σ ← σ + W σ + σ Wᵀ                             W = ½ (L − Lᵀ) Δt
-    Hughes–Winget    σ ← R σ Rᵀ,    R = I + (W + ½ W²)/(1 + ¼ w²)   w the axial vector of W
+    Jaumann          σ ← σ + W σ + σ Wᵀ                             W = ½ (G − Gᵀ),  G = L Δt
+    Hughes–Winget    σ ← R σ Rᵀ,    R = I + (W + ½ W²)/(1 + ¼ w²)   w the axial vector of W,
+                                                                    G = L Δt (I + ½ L Δt)⁻¹
 
 The Jaumann rate is taken to first order, as in MPM-Geomechanics: it does not preserve the size of
-the stress, but lets the deviator grow by up to 2w² of itself in a step. R is orthogonal.
+the stress, but lets the deviator grow by up to 2w² of itself in a step. R is orthogonal, and G,
+the gradient in the middle of the step, has no strain ½ (G + Gᵀ) where the step is a rigid turn:
+a particle that moves along its velocity is stretched by ½ w², and strains by as much.
 
 Source: Hughes and Winget (1980), Int. J. Numer. Methods Eng. 15, 1862–1867.
 """
@@ -13,6 +16,7 @@ from typing import NamedTuple
 
 from mpmgeo.numerics.dispatch import generic
 from mpmgeo.numerics.jit import inlined
+from mpmgeo.numerics.matrices import inverse, product
 from mpmgeo.parameters import parameter
 
 
@@ -34,6 +38,43 @@ def objective_rate(default):
         choices=tuple(ROTATIONS),
         default=default,
     )
+
+
+@generic
+def increments(rotation, strain, spin):
+    """Return the increments of strain and spin that a rate takes for the gradient L Δt of a step.
+
+    `strain` and `spin` are the symmetric part of L Δt and the components xy, yz, xz of the other.
+    """
+
+
+@increments.register(type(None))
+@increments.register(Jaumann)
+def at_the_start(rotation, strain, spin):
+    return strain, spin
+
+
+@increments.register(HughesWinget)
+def in_the_middle(rotation, strain, spin):
+    L = gradient(strain, spin)
+    half = (
+        (1.0 + 0.5 * L[0], 0.5 * L[1], 0.5 * L[2])
+        + (0.5 * L[3], 1.0 + 0.5 * L[4], 0.5 * L[5])
+        + (0.5 * L[6], 0.5 * L[7], 1.0 + 0.5 * L[8])
+    )
+    xx, xy, xz, yx, yy, yz, zx, zy, zz = product(inverse(half), L)
+    return (
+        (xx, yy, zz, 0.5 * (xy + yx), 0.5 * (yz + zy), 0.5 * (xz + zx)),
+        (0.5 * (xy - yx), 0.5 * (yz - zy), 0.5 * (xz - zx)),
+    )
+
+
+@inlined
+def gradient(strain, spin):
+    """Return the sum of a symmetric tensor and a skew one, given as xy, yz, xz, as a matrix."""
+    xx, yy, zz, xy, yz, xz = strain
+    a, b, c = spin
+    return xx, xy + a, xz + c, xy - a, yy, yz + b, xz - c, yz - b, zz
 
 
 @generic

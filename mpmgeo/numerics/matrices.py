@@ -11,6 +11,24 @@ def determinant(A):
 
 
 @inlined
+def inverse(A):
+    """Return A⁻¹."""
+    xx, xy, xz, yx, yy, yz, zx, zy, zz = A
+    q = 1.0 / determinant(A)
+    return (
+        q * (yy * zz - yz * zy),
+        q * (xz * zy - xy * zz),
+        q * (xy * yz - xz * yy),
+        q * (yz * zx - yx * zz),
+        q * (xx * zz - xz * zx),
+        q * (xz * yx - xx * yz),
+        q * (yx * zy - yy * zx),
+        q * (xy * zx - xx * zy),
+        q * (xx * yy - xy * yx),
+    )
+
+
+@inlined
 def product(A, B):
     """Return A B."""
     a, b, c, d, e, f, g, h, i = A

@@ -126,6 +126,11 @@ def angular_momentum(simulation) -> float:
     return float(simulation.field("mass") @ (x * v - y * u))
 
 
+def radius(simulation) -> float:
+    """Return the distance of particles from the middle of the square in the mean [m]."""
+    return float(np.linalg.norm(simulation.field("position")[:, :2] - 0.6, axis=1).mean())
+
+
 WAVE = 36.69  # speed of compression waves in the cube that flies [m/s], ν = 0.3
 CROSSINGS = 1000  # times that a wave could cross a cell during its flight
 

@@ -5,7 +5,7 @@ from numba.np.unsafe.ndarray import to_fixed_tuple
 
 from mpmgeo.materials.hyperelastic import energy_of, is_hyperelastic, stress_of
 from mpmgeo.materials.law import update_stress
-from mpmgeo.materials.rotation import rotate_stress
+from mpmgeo.materials.rotation import gradient, increments, rotate_stress
 from mpmgeo.numerics.jit import INLINED, inlined
 from mpmgeo.numerics.matrices import determinant, product, row_of
 from mpmgeo.numerics.simd import add, lane, load_column, load_row, pack, scale, with_velocity
@@ -122,6 +122,7 @@ def _compiled_advance(
 
 def _strain(law, rotation, strain, spin, V, stress, state, total, work, pressure, F, p, dt):
     """Add what a strain increment makes to stress and volume."""
+    strain, spin = increments(rotation, strain, spin)
     _sum_up(total, strain, p)
     stretch = 1.0 + (strain[0] + strain[1] + strain[2])
     V[p] *= stretch
@@ -142,9 +143,8 @@ def _strain(law, rotation, strain, spin, V, stress, state, total, work, pressure
 def _deform(law, rotation, strain, spin, V, stress, state, total, work, pressure, F, p, dt):
     """Update the deformation gradient, F ← (I + L dt) F; volume and stress follow from it."""
     _sum_up(total, strain, p)
-    xx, yy, zz, xy, yz, xz = strain
-    a, b, c = spin
-    step = (1.0 + xx, xy + a, xz + c, xy - a, 1.0 + yy, yz + b, xz - c, yz - b, 1.0 + zz)
+    xx, xy, xz, yx, yy, yz, zx, zy, zz = gradient(strain, spin)
+    step = (1.0 + xx, xy, xz, yx, 1.0 + yy, yz, zx, zy, 1.0 + zz)
     old = row_of(F, p)
     new = product(step, old)
     for n in range(9):

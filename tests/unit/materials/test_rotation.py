@@ -7,7 +7,13 @@ import pytest
 from numba import njit
 
 from mpmgeo.materials import LAWS
-from mpmgeo.materials.rotation import ROTATIONS, HughesWinget, Jaumann, rotate_stress
+from mpmgeo.materials.rotation import (
+    ROTATIONS,
+    HughesWinget,
+    Jaumann,
+    increments,
+    rotate_stress,
+)
 
 VOIGT = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)]
 STRESS = np.array([-3.0, 1.0, 2.0, 0.5, -1.5, 0.7]) * 1e5
@@ -55,15 +61,50 @@ def test_formulas(seed):
     assert np.array(hughes_winget) == pytest.approx(six(R @ σ @ R.T), rel=1e-12)
 
 
-def test_compiled_and_python_agree():
-    @njit
-    def compiled(rotation, stress, spin):
-        return rotate_stress(rotation, stress, spin)
+def parts(L):
+    """Return the six components of the symmetric part of L, and xy, yz, xz of the other."""
+    W = (L - L.T) / 2
+    return tuple(six((L + L.T) / 2)), (W[0, 1], W[1, 2], W[0, 2])
 
-    components = (0.1, -0.2, 0.3)
+
+@pytest.mark.parametrize("seed", range(5))
+def test_gradient_in_the_middle_of_the_step(seed):
+    L = 0.3 * np.random.default_rng(seed).normal(size=(3, 3))
+    G = L @ np.linalg.inv(np.eye(3) + L / 2)
+    for found, expected in zip(increments(HughesWinget(), *parts(L)), parts(G), strict=True):
+        assert found == pytest.approx(expected, rel=1e-13, abs=1e-15)
+
+
+def test_other_rates_take_the_gradient_as_it_is():
+    strain, spin = parts(np.random.default_rng(0).normal(size=(3, 3)))
+    for rotation in (None, Jaumann()):
+        assert increments(rotation, strain, spin) == (strain, spin)
+
+
+def test_a_whole_turn_in_steps_of_rigid_turns():
+    """Displacements of a rigid turn strain nothing and turn the stress exactly."""
+    axis = np.array([1.0, -2.0, 2.0]) / 3
+    W = spin(axis * 2 * pi / 100)[1]
+    angle = 2 * pi / 100
+    R = np.eye(3) + sin(angle) / angle * W + (1 - cos(angle)) / angle**2 * W @ W
+    σ, expected = tuple(STRESS), full(STRESS)
+    for _ in range(100):
+        strain, turn = increments(HughesWinget(), *parts(R - np.eye(3)))
+        assert np.abs(strain).max() < 1e-16
+        σ, expected = rotate_stress(HughesWinget(), σ, turn), R @ expected @ R.T
+        assert np.array(σ) == pytest.approx(six(expected), rel=1e-11)
+    assert np.array(σ) == pytest.approx(STRESS, rel=1e-11)
+
+
+def test_compiled_and_python_agree():
+    def both(rotation, stress, strain, spin):
+        strain, spin = increments(rotation, strain, spin)
+        return rotate_stress(rotation, stress, spin) + strain
+
+    values = tuple(STRESS), (0.1, 0.2, -0.1, 0.3, 0.1, -0.2), (0.1, -0.2, 0.3)
     for rotation in ROTATIONS.values():
-        expected = rotate_stress(rotation, tuple(STRESS), components)
-        assert compiled(rotation, tuple(STRESS), components) == pytest.approx(expected, rel=1e-14)
+        expected = both(rotation, *values)
+        assert njit(both)(rotation, *values) == pytest.approx(expected, rel=1e-13)
 
 
 def test_none_leaves_the_stress():
