@@ -116,7 +116,7 @@ def weigh(table, side):
     table.add("held per particle, with the guard's copy", "bytes", held / count, bar="≤ 400")
     table.add("more of it while sorting all", "bytes", (peak - now) / count)
     nodes = 64 * len(grid.active)
-    bound = 64 + 64 * (3 + grid.width) ** 3 / 64
+    bound = 64 + 64 * grid.record / 8 / 64
     table.add("per node of touched blocks", "bytes", grid.nbytes() / nodes, bar=f"≤ {bound:.0f}")
     with multiprocessing.get_context("spawn").Pool(1) as pool:
         huge = pool.apply(peak_of_a_huge_mesh, (side,))

@@ -9,6 +9,7 @@ from mpmgeo.materials.elastic import Elastic
 from mpmgeo.mpm.schemes import SCHEMES
 from mpmgeo.mpm.solver import Solver
 from mpmgeo.shapes import SHAPES
+from mpmgeo.shapes.shape import widths
 from mpmgeo.state.grid import Grid, Mesh
 from mpmgeo.state.particles import ParticleSet, Population
 
@@ -79,7 +80,7 @@ def assemble(
     if settles:
         fields["effects"] = (*fields.get("effects", ()), KineticDamping().effect())
     return Solver(
-        grid=Grid(Mesh.of(cell, cells), shape.width),
+        grid=Grid(Mesh.of(cell, cells), widths(shape)),
         sets=sets,
         population=Population(position, size, body, material, None),
         shape=shape,

@@ -6,6 +6,7 @@ from mpmgeo.materials.elastic import Elastic
 from mpmgeo.mpm.solver import SMALL
 from mpmgeo.mpm.stages import Loops
 from mpmgeo.shapes import SHAPES
+from mpmgeo.shapes.shape import widths
 from mpmgeo.state.grid import Grid, Mesh
 from mpmgeo.state.layout import NODES
 from mpmgeo.state.particles import ParticleSet
@@ -26,7 +27,7 @@ class Scene(Loops):
         cells = np.maximum(configuration.cells, np.floor(position.max(axis=0) / cell) + 1)
         mesh = Mesh.of(configuration.cell, cells.astype(int))
         self.shape = SHAPES["GIMP"]
-        self.grid = Grid(mesh, self.shape.width)
+        self.grid = Grid(mesh, widths(self.shape))
         self.small = count <= SMALL
         law = Elastic(
             id=1,

@@ -17,7 +17,7 @@ from mpmgeo.numerics.triangle_tree import (
     first_of_nearest,
     nearest,
 )
-from mpmgeo.state.layout import NODES, SIDE, axes
+from mpmgeo.state.layout import CUBE, NODES, SIDE, axes
 
 FAR = 1e30  # m
 
@@ -116,7 +116,7 @@ def fill(c, ground, mesh, band, corner, out):
             out[b] = FAR if d > 0.0 else -FAR
             continue
         for n in range(NODES):
-            i, j, k = axes(n)
+            i, j, k = axes(CUBE, n)
             x, y, z = ox + i * mesh.hx, oy + j * mesh.hy, oz + k * mesh.hz
             t = nearest_of(ground, x, y, z, t, waiting)
             out[b, n] = signed_distance(ground, t, x, y, z)

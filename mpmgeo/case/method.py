@@ -43,6 +43,11 @@ class Method:
         choices=("initial", "updated"),
         default="initial",
     )
+    plane_strain: str = parameter(
+        "Whether one layer of particles is solved for all where nothing changes across",
+        choices=("auto", "off"),
+        default="auto",
+    )
     volumetric_locking: str = parameter(
         "Cure of it, by the mean volume strain of cells", choices=("off", "cells"), default="off"
     )

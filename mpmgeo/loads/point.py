@@ -87,10 +87,10 @@ class PointLoads(Effect):
                 continue
             for owner in grid.below[block]:
                 local = self.node[index] - grid.corner[owner] * SIDE
-                if owner >= 0 and (local < grid.side).all():
+                if owner >= 0 and (local < grid.rows).all():
                     self._owner[index] = owner
                     self._at[index] = owner * volume(grid.rows) + place(grid.rows, *local)
-                    self._record[index] = block * NODES + inner(*self.node[index] % SIDE)
+                    self._record[index] = block * NODES + inner(grid.rows, *self.node[index] % SIDE)
                     break
 
     def _scale(self, t):
@@ -135,5 +135,5 @@ class PointLoads(Effect):
         for index, (key, at) in enumerate(zip(keys, self.node % SIDE, strict=True)):
             block = np.searchsorted(grid.active, key)
             if block < len(grid.active) and grid.active[block] == key:
-                mass[index] = known[block * NODES + inner(*at)]
+                mass[index] = known[block * NODES + inner(grid.rows, *at)]
         return mass == 0.0

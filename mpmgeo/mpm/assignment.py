@@ -48,6 +48,7 @@ def assign(solver, key, values):
         _deform(solver, values)
     else:
         _put(solver, key, values)
+    solver.assigned()
 
 
 def _put(solver, key, values):

@@ -22,9 +22,11 @@ class Departures(list):
     def __init__(self, zero=NOWHERE):
         super().__init__()
         self.zero = zero
+        self.all_of = None  # of some rows all those for which they stand; None: themselves
 
     def add(self, time, rows, position):
         """Note that particles in `rows` left at a time [s], the first of them at a position [m]."""
+        rows = rows if self.all_of is None else self.all_of(rows)
         self.append(Departure(time, rows, position))
 
     def first(self):

@@ -4,7 +4,6 @@ from mpmgeo.mpm.core.cells import Average
 from mpmgeo.mpm.core.locking import MEAN, SumDivergence, SumMeanStress
 from mpmgeo.mpm.task import Task
 from mpmgeo.state.field import Field, Lanes
-from mpmgeo.state.layout import volume
 
 SUMS = Lanes(
     tile={"volume": (0, 1), "volume times value": (1, 1)},
@@ -34,7 +33,7 @@ class CellMeans:
         grid, field = solver.grid, self.field
         if self._keys is not grid.keys:
             self._keys = grid.keys
-            field.fit(len(grid.keys), volume(grid.rows), len(grid.active))
+            field.fit(len(grid.keys), grid.rows, len(grid.active))
         tiles = (field.tiles,)
         solver.over_particles(work, s, arrays, tiles, nodes, fresh=True)
         solver.over_nodes(Task(Average(MEAN), tiles, grid.scratch, (field.nodes,)))

@@ -39,6 +39,7 @@ def copy_of(state, kept) -> dict:
 
 def take_over(solver, state) -> None:
     """Give a solver a state; raises ValueError if it does not fit."""
+    solver = solver.solver_of(state)
     parts = {}
     for name, value in state.items():
         owner, _, inner = name.rpartition(".")
@@ -55,8 +56,6 @@ def take_over(solver, state) -> None:
         except ValueError as error:
             raise ValueError(f"the snapshot does not fit the case: {here}{error}") from None
         parts |= {owner: found} if found else {}
-    for s in solver.sets:
-        s.lie_in(solver.grid)
     unknown = sorted(f"{owner}.{name}" for owner, part in parts.items() for name in part)
     if unknown:
         raise ValueError(

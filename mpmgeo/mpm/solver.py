@@ -222,7 +222,14 @@ class Solver(Stages):
             walls = keeping(walls)
         return walls
 
+    def assigned(self):
+        """Take note that somebody has given particles other values."""
+
     # What a run must hold to go on
+
+    def solver_of(self, state):
+        """Return the solver that a state is one of: this one."""
+        return self
 
     def owners(self):
         """Return all that hold a part of the state, by the name that their part has.
@@ -251,5 +258,7 @@ class Solver(Stages):
             demand(is_sound, "grid.keys are not the blocks of the particles")
         is_sound = all(d.rows.min() >= 0 and d.rows.max() < self.count for d in self.departures)
         demand(is_sound, "departures are of particles that there are not")
+        for s in self.sets:
+            s.lie_in(self.grid)
         for resumed in self.asked["resumed"]:
             resumed(self)

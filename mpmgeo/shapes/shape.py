@@ -7,6 +7,8 @@ the class attribute `cuts = True` it ends at walls, and its stencil is told how 
 `sized = True` it depends on the size of particles, and has `ends`, too.
 """
 
+from typing import NamedTuple
+
 from numba.core import types
 from numba.extending import overload
 
@@ -36,25 +38,78 @@ def ends(shape, s, l):
     """
 
 
+class UniformX(NamedTuple):
+    """A shape where nothing changes along x: one node carries all that there is across."""
+
+    shape: object
+    across = 0
+
+
+class UniformY(NamedTuple):
+    """A shape where nothing changes along y."""
+
+    shape: object
+    across = 1
+
+
+class UniformZ(NamedTuple):
+    """A shape where nothing changes along z."""
+
+    shape: object
+    across = 2
+
+
+UNIFORM = (UniformX, UniformY, UniformZ)
+
+
+def _class_of(shape):
+    """Return the class of a shape, or of the one that numba's type of it stands for."""
+    return getattr(shape, "instance_class", type(shape))
+
+
+def across(shape):
+    """Return the axis along which nothing changes, None without; also for numba's type of it."""
+    return getattr(_class_of(shape), "across", None)
+
+
+def _kind(shape):
+    """Return the class that tells how wide a shape is, and what it needs."""
+    if across(shape) is None:
+        return _class_of(shape)
+    return _class_of(shape.types[0] if hasattr(shape, "types") else shape.shape)
+
+
 def width(shape):
     """Return S, the number of nodes that the shape reaches along an axis."""
-    return type(shape).width
+    return _kind(shape).width
 
 
 @overload(width, jit_options=INLINED)
 def _width(shape):
-    nodes = shape.instance_class.width
+    nodes = _kind(shape).width
+    return lambda shape: nodes
+
+
+def widths(shape):
+    """Return how many nodes the shape reaches along x, y, z: S, one where nothing changes."""
+    S = _kind(shape).width
+    return tuple(1 if axis == across(shape) else S for axis in range(3))
+
+
+@overload(widths, jit_options=INLINED)
+def _widths(shape):
+    nodes = widths(shape)
     return lambda shape: nodes
 
 
 def cuts(shape):
     """Tell whether the shape, or numba's type of it, ends at walls."""
-    return getattr(getattr(shape, "instance_class", type(shape)), "cuts", False)
+    return getattr(_kind(shape), "cuts", False)
 
 
 def is_sized(shape):
     """Tell whether the shape depends on the size of particles."""
-    return getattr(type(shape), "sized", False)
+    return getattr(_kind(shape), "sized", False)
 
 
 def cut_of(shape, walls, first):
@@ -80,3 +135,11 @@ def _choose(ends, has_walls):
 
 def _beyond(shape, walls, first):
     return max(walls[0] - first, 0.0), max(first + (width(shape) - 1.0) - walls[1], 0.0)
+
+
+
+@stencil.register(UniformX)
+@stencil.register(UniformY)
+@stencil.register(UniformZ)
+def stencil_in_the_plane(shape, s, l, cut):
+    return stencil(shape.shape, s, l, cut)

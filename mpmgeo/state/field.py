@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mpmgeo.numerics.simd import LANES, aligned
-from mpmgeo.state.layout import NODES
+from mpmgeo.state.layout import nodes, volume
 
 
 class Lanes(NamedTuple):
@@ -28,21 +28,22 @@ class Field:
         self.lanes = lanes
         self.has_nodes = has_nodes
         self.tiles = self.nodes = aligned(0)
-        self.blocks = 0
+        self.blocks = self.count = 0
 
-    def fit(self, tiles: int, nodes_of_tile: int, blocks: int):
-        """Make room for so many tiles of so many nodes, and for the nodes of so many blocks."""
-        self.tiles = room(self.tiles, tiles * nodes_of_tile)
-        self.blocks = blocks
+    def fit(self, tiles: int, rows: tuple[int, int, int], blocks: int):
+        """Make room for so many tiles with `rows` of nodes, and for the nodes of so many blocks."""
+        self.tiles = room(self.tiles, tiles * volume(rows))
+        self.blocks, self.count = blocks, nodes(rows)
         if self.has_nodes:
-            self.nodes = room(self.nodes, blocks * NODES)
+            self.nodes = room(self.nodes, blocks * self.count)
 
     def records(self) -> np.ndarray:
-        """Return the records of the nodes, shape (blocks, 64, 8)."""
-        return self.nodes[: self.blocks * NODES * LANES].reshape(self.blocks, NODES, LANES)
+        """Return the records of the nodes, shape (blocks, nodes of a block, 8)."""
+        shape = self.blocks, self.count, LANES
+        return self.nodes[: self.blocks * self.count * LANES].reshape(shape)
 
     def at_nodes(self, name: str) -> np.ndarray:
-        """Return a quantity of the nodes, (blocks · 64,) or (blocks · 64, k)."""
+        """Return a quantity of the nodes, (nodes of all blocks,) or with k columns."""
         first, count = self.lanes.node[name]
         values = self.records().reshape(-1, LANES)[:, first : first + count]
         return values[:, 0] if count == 1 else values

@@ -18,7 +18,7 @@ from mpmgeo.numerics.jit import inlined
 from mpmgeo.numerics.simd import LANES, aligned
 from mpmgeo.state.checked import array_from, demand
 from mpmgeo.state.field import Field, Lanes
-from mpmgeo.state.layout import NODES, SIDE, blocks_along, volume
+from mpmgeo.state.layout import SIDE, blocks_along, edge, nodes, side, volume
 
 SOLID = Lanes(
     tile={"mass": (0, 1), "momentum": (1, 3), "force": (4, 3), "mass of tools": (7, 1)},
@@ -79,11 +79,14 @@ def corners_of(keys):
     return np.stack(parts, axis=-1) - KEY_SHIFT
 
 
-def nodes_of(corner):
-    """Return the node indices (n, 64, 3) of blocks of a corner (n, 3)."""
-    steps = np.arange(SIDE)
-    inner = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), -1).reshape(-1, 3)
-    return corner[:, None] * SIDE + inner
+def nodes_of(corner, sides=3 * (SIDE,)):
+    """Return the node indices (n, nodes of a block, 3) of blocks of a corner (n, 3)."""
+    return corner[:, None] * SIDE + steps(sides)
+
+
+def steps(counts):
+    """Return all steps (n, 3) of less than so many along each axis, those along z first."""
+    return np.array(list(np.ndindex(*counts)))
 
 
 def _find(table, keys):
@@ -93,20 +96,24 @@ def _find(table, keys):
 
 
 class Grid:
-    """Blocks and the field of the solid for a shape's width; `cover` puts them at the particles."""
+    """Blocks and the field of the solid for a shape's widths; `cover` puts them at the particles.
 
-    def __init__(self, mesh: Mesh, width: int):
+    `widths`: nodes that the shape reaches along each axis. `seen`: the mesh as kernels see it.
+    """
+
+    def __init__(self, mesh: Mesh, widths: tuple[int, int, int], seen: Mesh | None = None):
         self.mesh = mesh
-        self.frame = np.array((*mesh, *NO_WALLS))  # for `mesh_of` and `walls_of`
-        self.width = width
-        self.side = SIDE + width - 1  # nodes along a tile's edge
-        self.rows = (self.side,) * 3
+        self.seen = mesh if seen is None else seen
+        self.frame = np.array((*self.seen, *NO_WALLS))  # for `mesh_of` and `walls_of`
+        self.widths = widths
+        self.rows = tuple(map(edge, widths))  # nodes along a tile's edges
+        self.sides = tuple(map(side, self.rows))  # nodes along a block's edges
         self.record = volume(self.rows) * LANES
-        self.reach = blocks_along(self.side)  # blocks along an axis that a tile lies over
-        steps = np.arange(self.reach)
-        self._steps = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), -1).reshape(-1, 3)
+        self.reach = tuple(map(blocks_along, self.rows))  # blocks along axes a tile lies over
+        self._steps = steps(self.reach)
         self.keys = self.active = np.empty(0, np.int64)
         self.solid = Field(SOLID)
+        self.solid.fit(0, self.rows, 0)
         self.scratch = aligned(CHUNKS * self.record)  # a tile for each chunk of a loop
         self.cover(self.keys)
 
@@ -122,8 +129,8 @@ class Grid:
         if len(keys):
             self.below = _find(keys, keys_of(self.active_corner[:, None] - self._steps))
         else:
-            self.below = np.empty((0, self.reach**3), np.int64)
-        self.solid.fit(len(keys), volume(self.rows), len(self.active))
+            self.below = np.empty((0, len(self._steps)), np.int64)
+        self.solid.fit(len(keys), self.rows, len(self.active))
         self.nodes[:] = 0.0
         _, now, before = np.intersect1d(self.active, old, return_indices=True)
         self.records()[now] = records[before]  # the last velocities, which damping may ask for
@@ -145,12 +152,12 @@ class Grid:
         return self.solid.nodes
 
     def records(self):
-        """Return the node records of the active blocks, shape (blocks, 64, 8)."""
+        """Return the node records of the active blocks, shape (blocks, nodes of a block, 8)."""
         return self.solid.records()
 
     def indices(self):
-        """Return the node indices of the active blocks, shape (blocks, 64, 3)."""
-        return nodes_of(self.active_corner)
+        """Return the node indices of the active blocks, shape (blocks, nodes of a block, 3)."""
+        return nodes_of(self.active_corner, self.sides)
 
     def held(self):
         """Return what a run that goes on needs of the grid, by name."""
@@ -159,7 +166,8 @@ class Grid:
     def take(self, state):
         """Go on with what `held` once returned; ValueError for blocks that cannot be."""
         keys = array_from(state, "keys", self.keys.dtype, (None,))
-        records = array_from(state, "records", np.float64, (self.blocks_under(keys), NODES, LANES))
+        shape = self.blocks_under(keys), nodes(self.rows), LANES
+        records = array_from(state, "records", np.float64, shape)
         self.cover(keys.copy())
         np.copyto(self.records(), records)
 
@@ -168,7 +176,7 @@ class Grid:
         demand((keys[1:] > keys[:-1]).all(), "keys are not in order")
         corner = corners_of(keys)
         last = np.array([self.mesh.nx, self.mesh.ny, self.mesh.nz]) // SIDE
-        inside = ((corner >= -self.reach) & (corner <= last)).all()
+        inside = ((corner >= -np.array(self.reach)) & (corner <= last)).all()
         demand(inside and (keys >= 0).all(), "keys name blocks outside the mesh")
         return len(np.unique(keys_of(corner[:, None] + self._steps)))
 

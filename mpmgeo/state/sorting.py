@@ -71,9 +71,9 @@ def _index(keys, key):
 @inlined
 def _corners(mesh, reach, x, p):
     """Return the block corner of a particle's first node; see `_corner`."""
-    i = _corner(x[p, 0], mesh.ix, mesh.nx, reach)
-    j = _corner(x[p, 1], mesh.iy, mesh.ny, reach)
-    k = _corner(x[p, 2], mesh.iz, mesh.nz, reach)
+    i = _corner(x[p, 0], mesh.ix, mesh.nx, reach[0])
+    j = _corner(x[p, 1], mesh.iy, mesh.ny, reach[1])
+    k = _corner(x[p, 2], mesh.iz, mesh.nz, reach[2])
     return i, j, k
 
 
@@ -193,11 +193,11 @@ def sort(grid, sets, crew, walls=OPEN):
     Returns for each set how many particles left the mesh just now; they stand directly behind
     `start[-1]` from then on. The grid's blocks are renewed when particles reached new ones.
     """
-    reach = 0.5 * (grid.width - 2)
+    reach = tuple(0.5 * (width - 2) for width in grid.widths)
     targets = []
     for s in sets:
         target = np.empty(s.active, np.int64)
-        locate(crew, grid.mesh, walls, reach, s.chunk, s.start, grid.keys, s.x, target)
+        locate(crew, grid.seen, walls, reach, s.chunk, s.start, grid.keys, s.x, target)
         targets.append(target)
     if any(len(t) and t.min() <= UNKNOWN for t in targets):
         _add_blocks(grid, sets, targets)

@@ -1,9 +1,12 @@
 """The solver that runs a case, put together of its parts."""
 
+import numpy as np
+
 from mpmgeo.boundaries.planes import Planes
 from mpmgeo.case.building.fluid import pore_fluid, saturate
 from mpmgeo.case.building.in_time import in_time
 from mpmgeo.case.building.motions import base, bind_tools
+from mpmgeo.case.building.plane_strain import in_plane_strain
 from mpmgeo.case.building.population import populate
 from mpmgeo.case.building.sets import load_stress, particle_sets
 from mpmgeo.case.building.terrain import bind_terrain
@@ -15,6 +18,7 @@ from mpmgeo.mpm.locking import CellMeans
 from mpmgeo.mpm.schemes import scheme_of
 from mpmgeo.mpm.solver import Solver
 from mpmgeo.shapes import AS_MPM_GEOMECHANICS, shape_of
+from mpmgeo.shapes.shape import widths
 from mpmgeo.state.grid import Grid, Mesh
 
 TOUCH = 1e-12  # cells by which a particle must reach over a node; less is round-off
@@ -33,8 +37,7 @@ def build(case, body_force=None):
     legacy = case.compatibility is not None
     name = case.shape_function
     shape = AS_MPM_GEOMECHANICS[name] if legacy else shape_of(name, case)
-    damping, early = _damping(case)
-    tools, tool = bind_tools(case, population, velocity)
+    tool = bind_tools(case, population, velocity)[1]
     contact = bind_terrain(case, mesh, shape.width, population, notes)
     sets = particle_sets(case, population, velocity, law, tool, contact, notes)
     if case.n_phases == 2:
@@ -42,9 +45,44 @@ def build(case, body_force=None):
     if case.load_state:
         load_stress(case, sets, len(population.position))
     lightest = min((float(s.m.min()) for s in sets), default=0.0)
+    cutoff = 0.0 if legacy else TOUCH**shape.edge * lightest
+    damping, early = _damping(case)
+
+    def assembled(sets, grid, shape, planes, said, *further):
+        """Return a solver of particles in a grid, with effects of its own and some further ones."""
+        own = _effects(case, population, contact, body_force, said)
+        return Solver(
+            grid=grid,
+            sets=sets,
+            population=population,
+            shape=shape,
+            scheme=scheme_of(case.stress_scheme_update, case),
+            planes=planes,
+            time_step=time_step(case, velocity),
+            gravity=case.largest_gravity,
+            effects=(*own, *further),
+            damping=damping,
+            early_damping=early,
+            transfer=case.transfer.symbols,
+            leaky=legacy,
+            cutoff=cutoff,
+            cells=CellMeans() if case.volumetric_locking == "cells" else None,
+        )
+
+    planes = Planes.of(case.mesh.boundary_conditions)
+    solver = assembled(sets, Grid(mesh, widths(shape)), shape, planes, notes)
+    if case.plane_strain == "auto":
+        solver = in_plane_strain(case, solver, assembled, notes)
+    return solver, notes
+
+
+def _effects(case, population, contact, body_force, notes):
+    """Return what joins the steps of a case."""
+    legacy, velocity = case.compatibility is not None, np.zeros_like(population.position)
+    mesh = Mesh.of(case.mesh.cells_dimension, case.mesh.cells_number)
     effects = (
         base(case, notes),
-        tools,
+        bind_tools(case, population, velocity)[0],
         pore_fluid(case),
         contact,
         *_of_loads(case, mesh),
@@ -55,24 +93,7 @@ def build(case, body_force=None):
         in_time(case, population.position),
         _body_force(case, body_force),
     )
-    solver = Solver(
-        grid=Grid(mesh, shape.width),
-        sets=sets,
-        population=population,
-        shape=shape,
-        scheme=scheme_of(case.stress_scheme_update, case),
-        planes=Planes.of(case.mesh.boundary_conditions),
-        time_step=time_step(case, velocity),
-        gravity=case.largest_gravity,
-        effects=tuple(effect for effect in effects if effect is not None),
-        damping=damping,
-        early_damping=early,
-        transfer=case.transfer.symbols,
-        leaky=legacy,
-        cutoff=0.0 if legacy else TOUCH**shape.edge * lightest,
-        cells=CellMeans() if case.volumetric_locking == "cells" else None,
-    )
-    return solver, notes
+    return [effect for effect in effects if effect is not None]
 
 
 def _damping(case):

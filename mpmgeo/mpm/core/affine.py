@@ -6,10 +6,10 @@ of the weights in the place of their slopes: in the lanes of the momentum moment
 force slopes.
 """
 
-from mpmgeo.mpm.core.tile import collect, deposit, find
+from mpmgeo.mpm.core.tile import collect, deposit, find, of_axis
 from mpmgeo.numerics.halves import paired
 from mpmgeo.numerics.jit import inlined
-from mpmgeo.numerics.simd import along, load_row, scale, store_row, with_velocity
+from mpmgeo.numerics.simd import load_row, scale, store_row, with_velocity
 from mpmgeo.transfers.transfer import gradient_stencil, with_moments
 
 
@@ -24,9 +24,10 @@ def deposit_affine(here, m, C, C0, C1, C2, C3, p):
     C1 = with_velocity(C1, scale(m[p] * mesh.hx, load_row(C, 3 * p)))
     C2 = with_velocity(C2, scale(m[p] * mesh.hy, load_row(C, 3 * p + 1)))
     C3 = with_velocity(C3, scale(m[p] * mesh.hz, load_row(C, 3 * p + 2)))
-    wx = paired(along(q, 0), along(w, 0))
-    wy = paired(along(q, 1), along(w, 1))
-    wz = paired(along(q, 2), along(w, 2))
+    shape = here.shape
+    wx = paired(of_axis(shape, q, 0), of_axis(shape, w, 0))
+    wy = paired(of_axis(shape, q, 1), of_axis(shape, w, 1))
+    wz = paired(of_axis(shape, q, 2), of_axis(shape, w, 2))
     deposit(here.tiles[0], here.n0 + n, here.rows, wx, wy, wz, C0, C1, C2, C3)
 
 
@@ -48,5 +49,7 @@ def keep_gradient(transfer, here, C, n, w, sx, sy, sz, p):
 def _fitted(here, n, w, sx, sy, sz):
     if w is None:
         return sx, sy, sz
-    _, x, y, z = collect(here.source, n, here.rows, along(w, 0), along(w, 1), along(w, 2))
+    shape = here.shape
+    wx, wy, wz = of_axis(shape, w, 0), of_axis(shape, w, 1), of_axis(shape, w, 2)
+    _, x, y, z = collect(here.source, n, here.rows, wx, wy, wz)
     return x, y, z

@@ -17,7 +17,7 @@ from mpmgeo.state.layout import node_under, place
 def cell_of(here, p):
     """Return the place in its tile, along x, y, z, of the lowest node of particle p's cell."""
     x, y, z = here.rows
-    last = pack4(x - 2.0, y - 2.0, z - 2.0, 0.0)
+    last = pack4(max(x - 2.0, 0.0), max(y - 2.0, 0.0), max(z - 2.0, 0.0), 0.0)
     g = in_block(here.mesh, here.origin, load_row(here.x, p))
     g = min(max(truncate(g), 0.0), last)
     return int(lane(g, 0)), int(lane(g, 1)), int(lane(g, 2))

@@ -25,7 +25,7 @@ from mpmgeo.numerics.dispatch import generic
 from mpmgeo.numerics.jit import inlined
 from mpmgeo.numerics.simd import LANES
 from mpmgeo.state.grid import mesh_of
-from mpmgeo.state.layout import NODES, SIDE, axes, volume
+from mpmgeo.state.layout import NODES, SIDE, axes, nodes, volume
 
 
 class Here(NamedTuple):
@@ -53,6 +53,7 @@ class Node(NamedTuple):
 
     mesh: object
     number: int
+    block: int
     i: int
     j: int
     k: int
@@ -132,9 +133,11 @@ def over_particles(c, work, shape, frame, place, half, x, nodes, scratch, tiles,
 
 
 @inlined
-def is_bounded(mesh, I, J, K):
+def is_bounded(mesh, row, I, J, K):
     """Tell whether a block of corner (I, J, K) may have nodes on a plane."""
-    return touches(I, mesh.nx, SIDE) or touches(J, mesh.ny, SIDE) or touches(K, mesh.nz, SIDE)
+    x = row[0] > 1 and touches(I, mesh.nx, SIDE)
+    y = row[1] > 1 and touches(J, mesh.ny, SIDE)
+    return x or y or (row[2] > 1 and touches(K, mesh.nz, SIDE))
 
 
 @inlined
@@ -158,12 +161,13 @@ def over_nodes(c, work, shape, frame, place, tiles, scratch, a):
     first = c * (len(scratch) // CHUNKS)
     for b in range(chunk[c], chunk[c + 1]):
         I, J, K = corner[b, 0], corner[b, 1], corner[b, 2]
-        bounded = is_bounded(mesh, I, J, K)
+        bounded = is_bounded(mesh, row, I, J, K)
         if is_needless(work, a, b, bounded):
             continue
         _sum_all(tiles, below, b, row, scratch, first)
-        for n in range(NODES):
-            i, j, k = axes(n)
+        count = nodes(row)
+        for n in range(count):
+            i, j, k = axes(row, n)
             i, j, k = I * SIDE + i, J * SIDE + j, K * SIDE + k
             at = first + n * LANES
-            at_node(work, Node(mesh, b * NODES + n, i, j, k, bounded, scratch, at), a)
+            at_node(work, Node(mesh, b * count + n, b, i, j, k, bounded, scratch, at), a)

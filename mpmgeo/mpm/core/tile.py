@@ -19,16 +19,17 @@ from mpmgeo.numerics.simd import (
     store,
     truncate,
 )
-from mpmgeo.shapes.shape import cut_of, cuts, stencil, width
+from mpmgeo.shapes.shape import across, cut_of, cuts, stencil, widths
 from mpmgeo.state.grid import walls_of
-from mpmgeo.state.layout import NODES, SIDE, block_of, blocks_along, inner, place, volume
+from mpmgeo.state.layout import SIDE, block_of, blocks_along, edge, inner, place, side, volume
+from mpmgeo.state.layout import nodes as nodes_of
 
 
 @inlined
 def rows(shape):
     """Return the numbers of nodes along the edges of a shape's tile."""
-    row = SIDE + width(shape) - 1
-    return row, row, row
+    x, y, z = widths(shape)
+    return edge(x), edge(y), edge(z)
 
 
 def half_size(half, p):
@@ -58,13 +59,14 @@ def block_origin(mesh, corner):
 @inlined
 def block_bounds(shape, mesh, corner):
     """Return the bounds, in cells from a block, of its particles that are in the mesh."""
-    reach = 0.5 * (width(shape) - 2)
+    x, y, z = widths(shape)
+    x, y, z = 0.5 * (x - 2), 0.5 * (y - 2), 0.5 * (z - 2)
     i, j, k = corner[0] * SIDE, corner[1] * SIDE, corner[2] * SIDE
-    low = pack4(max(reach, -1.0 * i), max(reach, -1.0 * j), max(reach, -1.0 * k), 0.0)
+    low = pack4(max(x, -1.0 * i), max(y, -1.0 * j), max(z, -1.0 * k), 0.0)
     x, y, z = (
-        min(reach + SIDE, 1.0 * (mesh.nx - i)),
-        min(reach + SIDE, 1.0 * (mesh.ny - j)),
-        min(reach + SIDE, 1.0 * (mesh.nz - k)),
+        min(x + SIDE, 1.0 * (mesh.nx - i)),
+        min(y + SIDE, 1.0 * (mesh.ny - j)),
+        min(z + SIDE, 1.0 * (mesh.nz - k)),
     )
     return low, pack4(x, y, z, 0.0)
 
@@ -102,15 +104,27 @@ def stencils(shape, half, walls, g, last, p):
     `walls`: where shapes end, in cells, or None.
     """
     first, w = _stencil(shape, half, walls, g, last, p)
-    return first, along(w, 0), along(w, 1), along(w, 2)
+    return first, of_axis(shape, w, 0), of_axis(shape, w, 1), of_axis(shape, w, 2)
 
 
 @inlined
 def _stencil(shape, half, walls, g, last, p):
-    S = width(shape)
-    first = min(max(truncate(g - 0.5 * (S - 2)), 0.0), last)
-    w = stencil(shape, g - first - 0.5 * (S - 1), half_size(half, p), cut_of(shape, walls, first))
-    return first, w
+    x, y, z = widths(shape)
+    S = pack4(1.0 * x, 1.0 * y, 1.0 * z, 1.0)
+    first = min(max(truncate(g - 0.5 * (S - 2.0)), 0.0), last)
+    s = g - first - 0.5 * (S - 1.0)
+    return first, stencil(shape, s, half_size(half, p), cut_of(shape, walls, first))
+
+
+def of_axis(shape, w, axis):
+    """Return the weights and slopes of an axis: of a stencil, or those of the one node across."""
+
+
+@overload(of_axis, jit_options=INLINED, prefer_literal=True)
+def _of_axis(shape, w, axis):
+    if across(shape) == axis.literal_value:
+        return lambda shape, w, axis: (1.0, 0.0)
+    return lambda shape, w, axis: along(w, axis)
 
 
 @inlined
@@ -132,7 +146,8 @@ def find(here, p):
 def locate(here, p):
     """Return where the records of particle p begin in its tile, and its stencils along x, y, z."""
     n, w = find(here, p)
-    return n, along(w, 0), along(w, 1), along(w, 2)
+    shape = here.shape
+    return n, of_axis(shape, w, 0), of_axis(shape, w, 1), of_axis(shape, w, 2)
 
 
 @inlined
@@ -172,23 +187,25 @@ def deposit_value(tiles, n0, row, wx, wy, wz, C0):
 @inlined
 def copy_tile(nodes, above, b, row, tile):
     """Copy the node records under tile b out of the blocks that hold them."""
+    I, J, K = side(row[0]), side(row[1]), side(row[2])
     for di in range(blocks_along(row[0])):
         for dj in range(blocks_along(row[1])):
             for dk in range(blocks_along(row[2])):
-                block = above[b, block_of(row, di, dj, dk)] * NODES
-                i0, j0, k0 = SIDE * di, SIDE * dj, SIDE * dk
-                for i in range(min(SIDE, row[0] - i0)):
-                    for j in range(min(SIDE, row[1] - j0)):
-                        source = (block + inner(i, j, 0)) * LANES
+                block = above[b, block_of(row, di, dj, dk)] * nodes_of(row)
+                i0, j0, k0 = I * di, J * dj, K * dk
+                for i in range(min(I, row[0] - i0)):
+                    for j in range(min(J, row[1] - j0)):
+                        source = (block + inner(row, i, j, 0)) * LANES
                         at = place(row, i + i0, j + j0, k0) * LANES
-                        for k in range(min(SIDE, row[2] - k0)):
+                        for k in range(min(K, row[2] - k0)):
                             store(tile, at + k * LANES, load(nodes, source + k * LANES))
 
 
 @inlined
 def sum_tiles(tiles, below, a, row, out, first):
-    """Sum the tiles over active block a, in fixed order, into 64 records of `out` from `first`."""
-    for n in range(NODES):
+    """Sum the tiles over active block a, in fixed order, into the records of `out` from `first`."""
+    I, J, K = side(row[0]), side(row[1]), side(row[2])
+    for n in range(nodes_of(row)):
         store(out, first + n * LANES, splat(0.0))
     size = volume(row)
     for di in range(blocks_along(row[0])):
@@ -197,12 +214,12 @@ def sum_tiles(tiles, below, a, row, out, first):
                 t = below[a, block_of(row, di, dj, dk)]
                 if t < 0:
                     continue
-                i0, j0, k0 = SIDE * di, SIDE * dj, SIDE * dk
-                for i in range(min(SIDE, row[0] - i0)):
-                    for j in range(min(SIDE, row[1] - j0)):
-                        n = first + inner(i, j, 0) * LANES
+                i0, j0, k0 = I * di, J * dj, K * dk
+                for i in range(min(I, row[0] - i0)):
+                    for j in range(min(J, row[1] - j0)):
+                        n = first + inner(row, i, j, 0) * LANES
                         s = (t * size + place(row, i + i0, j + j0, k0)) * LANES
-                        for k in range(min(SIDE, row[2] - k0)):
+                        for k in range(min(K, row[2] - k0)):
                             at = n + k * LANES
                             store(out, at, add(load(out, at), load(tiles, s + k * LANES)))
 

@@ -26,11 +26,11 @@ from mpmgeo.mpm.core.tile import (
     find,
     in_block,
     locate,
+    of_axis,
 )
 from mpmgeo.numerics.jit import inlined
 from mpmgeo.numerics.simd import (
     add,
-    along,
     axpy,
     lane,
     load_row,
@@ -120,7 +120,8 @@ class Gather(NamedTuple):
 def gather(work, here, a, p):
     v, C, material, follower, means = a
     n, w = find(here, p)
-    value, sx, sy, sz = collect(here.source, n, here.rows, along(w, 0), along(w, 1), along(w, 2))
+    wx, wy, wz = of_axis(here.shape, w, 0), of_axis(here.shape, w, 1), of_axis(here.shape, w, 2)
+    value, sx, sy, sz = collect(here.source, n, here.rows, wx, wy, wz)
     _strained(work, work.law, here, value, sx, sy, sz, means, material, p)
     keep_gradient(work.transfer, here, C, n, w, sx, sy, sz, p)
     X = _moved(work, here.x, v, value, p)
@@ -190,7 +191,8 @@ def _remap(work, transfer, here, v, C, m, p):
         deposit_value(here.tiles[0], here.n0 + n, here.rows, wx, wy, wz, C0)
     else:
         n, w = find(here, p)
-        wx, wy, wz = along(w, 0), along(w, 1), along(w, 2)
+        shape = here.shape
+        wx, wy, wz = of_axis(shape, w, 0), of_axis(shape, w, 1), of_axis(shape, w, 2)
         value, sx, sy, sz = collect(here.source, n, here.rows, wx, wy, wz)
         _accelerate(transfer, work.h, v, value, p)
         keep_gradient(transfer, here, C, n, w, sx, sy, sz, p)

@@ -30,7 +30,6 @@ from mpmgeo.naming import ENERGIES
 from mpmgeo.numerics.jit import inlined
 from mpmgeo.numerics.simd import LANES, lane, load
 from mpmgeo.state.checked import array_from
-from mpmgeo.state.layout import NODES
 
 DIVERGING = np.errstate(over="ignore", invalid="ignore")
 """Of a run that diverges the guard tells, not every sum."""
@@ -50,7 +49,7 @@ class Works(NamedTuple):
 def works(work, node, a):
     others, out = a
     nodes, driven = others
-    r, inner, b = load(node.sums, node.at), work.work, node.number // NODES
+    r, inner, b = load(node.sums, node.at), work.work, node.block
     m = lane(r, 0)
     if m > 0.0:
         u = load(nodes, node.number * LANES)

@@ -89,7 +89,7 @@ class Forces(NamedTuple):
 @at_node.register(Forces)
 def at_forces_node(work, node, a):
     others, out = a
-    at_forces(work.work, node, others, out, node.number // NODES)
+    at_forces(work.work, node, others, out, node.block)
 
 
 @is_needless.register(Forces)

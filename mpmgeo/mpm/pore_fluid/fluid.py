@@ -14,7 +14,7 @@ from mpmgeo.mpm.task import Task
 from mpmgeo.numerics.chunks import CHUNKS
 from mpmgeo.numerics.simd import LANES, aligned
 from mpmgeo.state.field import Field, Lanes
-from mpmgeo.state.layout import NODES, volume
+from mpmgeo.state.layout import NODES
 
 FLOW = Lanes(
     tile={"mass": (0, 1), "momentum": (1, 3), "pressure force": (4, 3), "volume": (7, 1)},
@@ -52,7 +52,7 @@ class PoreFluid(Effect):
         if self._keys is not grid.keys:
             self._keys = grid.keys
             for field in (self.flow, self.pores):
-                field.fit(len(grid.keys), volume(grid.rows), len(grid.active))
+                field.fit(len(grid.keys), grid.rows, len(grid.active))
 
     def momentum(self, solver, h):
         """Return the task that integrates the momenta of both phases over h."""

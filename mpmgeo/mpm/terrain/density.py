@@ -9,7 +9,7 @@ from mpmgeo.mpm.core.tile import deposit_value, locate
 from mpmgeo.mpm.task import Task
 from mpmgeo.numerics.simd import lane, load, pack
 from mpmgeo.state.grid import corners_of, keys_of, nodes_of
-from mpmgeo.state.layout import NODES, SIDE, inner
+from mpmgeo.state.layout import CUBE, NODES, SIDE, inner
 
 
 class Density(NamedTuple):
@@ -34,7 +34,7 @@ class Density(NamedTuple):
             weight = np.where(corner, g - first, 1.0 - (g - first)).prod(axis=1)
             keys = keys_of(node // SIDE)
             block = np.minimum(np.searchsorted(self.keys, keys), max(len(self.keys) - 1, 0))
-            at = block * NODES + inner(*(node % SIDE).T)
+            at = block * NODES + inner(CUBE, *(node % SIDE).T)
             known = self.keys[block] == keys if len(self.keys) else np.zeros(len(x), bool)
             value += weight * density[np.where(known, at, -1)]
         return value

@@ -48,7 +48,7 @@ def fastest(work, node, a):
     u, motion = load(nodes, record_of(active, node.number)), work.motion
     x, y, z = lane(u, 0) - motion[0], lane(u, 1) - motion[1], lane(u, 2) - motion[2]
     if lane(u, 6) > work.least:
-        b = node.number // NODES
+        b = node.block
         square[b] = max(square[b], x * x + y * y + z * z)
 
 

@@ -70,7 +70,7 @@ def particles_within(solver, s, low, high) -> np.ndarray:
     in coordinates of the mesh."""
     cell = np.array(solver.grid.mesh[:3])
     # the first node of a particle lies this many cells below it at most
-    reach = 0.5 * (solver.grid.width - 2) + 1
+    reach = 0.5 * (np.array(solver.grid.widths) - 2) + 1
     limits = -FAR, FAR  # cells; beyond, whole numbers would overflow
     first = np.floor(np.clip(np.asarray(low) / cell - reach, *limits)).astype(np.int64) >> 2
     last = np.floor(np.clip(np.asarray(high) / cell, *limits)).astype(np.int64) >> 2
