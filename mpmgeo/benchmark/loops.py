@@ -5,7 +5,8 @@ from typing import NamedTuple
 from mpmgeo.materials.law import update_stress
 from mpmgeo.mpm.core.loops import at_node, visit
 from mpmgeo.mpm.core.point import spin_increment, strain_increment
-from mpmgeo.mpm.core.tile import collect, locate
+from mpmgeo.mpm.core.stencils import locate
+from mpmgeo.mpm.core.tile import collect
 from mpmgeo.numerics.simd import LANES, load, store
 
 

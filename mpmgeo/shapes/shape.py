@@ -137,7 +137,6 @@ def _beyond(shape, walls, first):
     return max(walls[0] - first, 0.0), max(first + (width(shape) - 1.0) - walls[1], 0.0)
 
 
-
 @stencil.register(UniformX)
 @stencil.register(UniformY)
 @stencil.register(UniformZ)

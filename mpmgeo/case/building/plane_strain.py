@@ -65,7 +65,7 @@ def _check_case(case, whole, axis):
     if case.terrain_contact is not None:
         raise Obstacle("particles touch a terrain")
     if case.particle_domain == "updated":
-        raise Obstacle("particle_domain is \"updated\"")
+        raise Obstacle('particle_domain is "updated"')
     if case.largest_gravity[axis] != 0.0:
         raise Obstacle("gravity has a component across")
     if case.nodal_point_load:

@@ -6,9 +6,12 @@ of the weights in the place of their slopes: in the lanes of the momentum moment
 force slopes.
 """
 
-from mpmgeo.mpm.core.tile import collect, deposit, find, of_axis
+from numba.extending import overload
+
+from mpmgeo.mpm.core.stencils import find, is_across, of_axis
+from mpmgeo.mpm.core.tile import collect, deposit
 from mpmgeo.numerics.halves import paired
-from mpmgeo.numerics.jit import inlined
+from mpmgeo.numerics.jit import INLINED, inlined
 from mpmgeo.numerics.simd import load_row, scale, store_row, with_velocity
 from mpmgeo.transfers.transfer import gradient_stencil, with_moments
 
@@ -25,10 +28,21 @@ def deposit_affine(here, m, C, C0, C1, C2, C3, p):
     C2 = with_velocity(C2, scale(m[p] * mesh.hy, load_row(C, 3 * p + 1)))
     C3 = with_velocity(C3, scale(m[p] * mesh.hz, load_row(C, 3 * p + 2)))
     shape = here.shape
-    wx = paired(of_axis(shape, q, 0), of_axis(shape, w, 0))
-    wy = paired(of_axis(shape, q, 1), of_axis(shape, w, 1))
-    wz = paired(of_axis(shape, q, 2), of_axis(shape, w, 2))
+    wx = _halves(of_axis(shape, q, 0), of_axis(shape, w, 0))
+    wy = _halves(of_axis(shape, q, 1), of_axis(shape, w, 1))
+    wz = _halves(of_axis(shape, q, 2), of_axis(shape, w, 2))
     deposit(here.tiles[0], here.n0 + n, here.rows, wx, wy, wz, C0, C1, C2, C3)
+
+
+def _halves(moments, slopes):
+    """Return factors for momentum and force along an axis, None where nothing changes."""
+
+
+@overload(_halves, jit_options=INLINED)
+def _compiled_halves(moments, slopes):
+    if is_across(slopes):
+        return lambda moments, slopes: None
+    return lambda moments, slopes: paired(moments, slopes)
 
 
 @inlined

@@ -7,7 +7,7 @@ which is that of the cell's lowest node; `Average` divides the sums, and others 
 from typing import NamedTuple
 
 from mpmgeo.mpm.core.loops import at_node
-from mpmgeo.mpm.core.tile import in_block
+from mpmgeo.mpm.core.stencils import in_block
 from mpmgeo.numerics.jit import inlined
 from mpmgeo.numerics.simd import LANES, lane, load, load_row, pack4, truncate
 from mpmgeo.state.layout import node_under, place

@@ -26,7 +26,7 @@ corners. Second moments, which need no roots of tensors, and places that follow 
 from math import sqrt
 
 from mpmgeo.materials.rotation import times_row
-from mpmgeo.mpm.core.tile import half_size, in_block
+from mpmgeo.mpm.core.stencils import half_size, in_block
 from mpmgeo.numerics.jit import inlined
 from mpmgeo.numerics.simd import LANES, along, axpy, lane, load, load_row, pack4, quarter, truncate
 from mpmgeo.shapes.shape import ends, width

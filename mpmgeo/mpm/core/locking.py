@@ -14,7 +14,8 @@ from typing import NamedTuple
 from mpmgeo.mpm.core.cells import add_to_cell, mean_of_cell
 from mpmgeo.mpm.core.loops import visit
 from mpmgeo.mpm.core.point import divergence
-from mpmgeo.mpm.core.tile import collect_diagonal, locate
+from mpmgeo.mpm.core.stencils import locate
+from mpmgeo.mpm.core.tile import collect_diagonal
 from mpmgeo.numerics.jit import inlined
 from mpmgeo.numerics.simd import add, pack4
 

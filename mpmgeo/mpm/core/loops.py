@@ -12,14 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from mpmgeo.boundaries.planes import touches
-from mpmgeo.mpm.core.tile import (
-    block_bounds,
-    block_origin,
-    block_walls,
-    copy_tile,
-    rows,
-    sum_tiles,
-)
+from mpmgeo.mpm.core.stencils import block_bounds, block_origin, block_walls, rows
+from mpmgeo.mpm.core.tile import copy_tile, sum_tiles
 from mpmgeo.numerics.chunks import CHUNKS, blockwise
 from mpmgeo.numerics.dispatch import generic
 from mpmgeo.numerics.jit import inlined

@@ -3,7 +3,8 @@
 from typing import NamedTuple
 
 from mpmgeo.mpm.core.loops import visit
-from mpmgeo.mpm.core.tile import collect_value, deposit_value, in_block, locate
+from mpmgeo.mpm.core.stencils import in_block, locate
+from mpmgeo.mpm.core.tile import collect_value, deposit_value
 from mpmgeo.mpm.core.transfer import loaded
 from mpmgeo.numerics.simd import (
     axpy,

@@ -18,16 +18,8 @@ from mpmgeo.mpm.core.point import (
     spin_increment,
     strain_increment,
 )
-from mpmgeo.mpm.core.tile import (
-    collect,
-    collect_value,
-    deposit,
-    deposit_value,
-    find,
-    in_block,
-    locate,
-    of_axis,
-)
+from mpmgeo.mpm.core.stencils import find, in_block, locate, of_axis
+from mpmgeo.mpm.core.tile import collect, collect_value, deposit, deposit_value
 from mpmgeo.numerics.jit import inlined
 from mpmgeo.numerics.simd import (
     add,

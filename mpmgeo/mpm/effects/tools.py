@@ -11,7 +11,7 @@ import numpy as np
 from mpmgeo.effect import Effect
 from mpmgeo.mpm.core.driven import Driven
 from mpmgeo.mpm.core.loops import visit
-from mpmgeo.mpm.core.tile import locate
+from mpmgeo.mpm.core.stencils import locate, of_one_node
 from mpmgeo.numerics.simd import LANES
 from mpmgeo.state.layout import node_under
 
@@ -30,6 +30,7 @@ class Mark(NamedTuple):
 def mark(work, here, a, p):
     m, above, owner = a
     first, wx, wy, wz = locate(here, p)
+    wx, wy, wz = of_one_node(wx), of_one_node(wy), of_one_node(wz)
     row, n = here.rows, first // LANES
     I, J, K = n // (row[1] * row[2]), n // row[2] % row[1], n % row[2]
     for i in range(len(wx) // 2):

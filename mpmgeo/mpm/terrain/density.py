@@ -5,7 +5,8 @@ from typing import NamedTuple
 import numpy as np
 
 from mpmgeo.mpm.core.loops import at_node, visit
-from mpmgeo.mpm.core.tile import deposit_value, locate
+from mpmgeo.mpm.core.stencils import locate
+from mpmgeo.mpm.core.tile import deposit_value
 from mpmgeo.mpm.task import Task
 from mpmgeo.numerics.simd import lane, load, pack
 from mpmgeo.state.grid import corners_of, keys_of, nodes_of

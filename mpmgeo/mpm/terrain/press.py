@@ -5,7 +5,8 @@ from typing import NamedTuple
 from mpmgeo.boundaries.planes import constrain
 from mpmgeo.mpm.core.driven import free_components
 from mpmgeo.mpm.core.loops import at_node, is_idle, is_needless, visit
-from mpmgeo.mpm.core.tile import collect_value, deposit_value, in_block, locate
+from mpmgeo.mpm.core.stencils import in_block, locate
+from mpmgeo.mpm.core.tile import collect_value, deposit_value
 from mpmgeo.mpm.terrain.touch import NORMAL, PUSH, TANGENT, TOUCHING, put
 from mpmgeo.numerics.jit import inlined
 from mpmgeo.numerics.simd import (

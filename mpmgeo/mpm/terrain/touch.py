@@ -23,7 +23,8 @@ from numba.core.types import NoneType
 from numba.extending import overload
 
 from mpmgeo.mpm.core.loops import is_idle, visit
-from mpmgeo.mpm.core.tile import collect_value, deposit_value, half_size, in_block, locate, stencils
+from mpmgeo.mpm.core.stencils import half_size, in_block, locate, stencils
+from mpmgeo.mpm.core.tile import collect_value, deposit_value
 from mpmgeo.mpm.terrain.ground import level_at, tile_origin
 from mpmgeo.numerics.jit import INLINED, inlined
 from mpmgeo.numerics.simd import LANES, lane, load_row, pack, pack4
