@@ -138,7 +138,7 @@ class NearGround:
         number[self.near] = np.arange(len(self.near))
         self.below = self._below = number[grid.below[self.active]]
         self.touched = np.zeros(len(self.near), np.int64)
-        self.field.fit(len(self.near), volume(grid.rows), len(self.active))
+        self.field.fit(len(self.near), grid.rows, len(self.active))
 
     def gather_touched(self):
         """Let `below` show the tiles of blocks in which anything touches alone; return it."""

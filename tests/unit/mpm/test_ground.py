@@ -16,7 +16,7 @@ def test_tiles_hold_the_distances_of_the_nodes_under_them(tmp_path, offset):
     solver.arrange()
     near, grid = solver.ground.near, solver.grid
     near.arrange(grid, offset, ALONE)
-    side = 4 + grid.width
+    side = 4 + grid.widths[0]
     level = near.level[:-8].reshape(-1, side, side, side)
     assert len(near.near) or offset[2] > 1
     out = terrains.axes(20)[1]

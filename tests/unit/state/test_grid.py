@@ -30,7 +30,7 @@ def random_corners(seed, count=40, extent=4):
 
 def covered(width, corners):
     """Return the grid of a shape whose owner blocks are at `corners`."""
-    grid = Grid(MESH, width)
+    grid = Grid(MESH, 3 * (width,))
     grid.cover(keys_of(corners))
     return grid
 
@@ -56,18 +56,18 @@ def test_keys_name_corners_and_sort_like_them(corners):
 
 @pytest.mark.parametrize("width", WIDTHS)
 def test_sizes_follow_from_the_width(width):
-    grid = Grid(MESH, width)
-    assert grid.side == SIDE + width - 1
-    assert grid.record == grid.side**3 * 8
+    grid = Grid(MESH, 3 * (width,))
+    assert grid.rows == 3 * (SIDE + width - 1,)
+    assert grid.record == grid.rows[0] ** 3 * 8
     # the nodes of a tile, counted from the block's first one, lie over that many blocks
-    assert grid.reach == (grid.side - 1) // SIDE + 1
+    assert grid.reach == 3 * ((grid.rows[0] - 1) // SIDE + 1,)
 
 
 @pytest.mark.parametrize("width", WIDTHS)
 def test_above_and_below_agree_with_a_search(width):
     corners = random_corners(width)
     grid = covered(width, corners)
-    axis = range(grid.reach)
+    axis = range(grid.reach[0])
     steps = [np.array([i, j, k]) for i in axis for j in axis for k in axis]
     owner = {tuple(c): b for b, c in enumerate(corners.tolist())}
     reached = {tuple(c + step) for c in corners for step in steps}

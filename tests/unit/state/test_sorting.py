@@ -50,7 +50,7 @@ def check_order(grid, s):
     assert len(s.start) == len(grid.keys) + 1 and s.start[0] == 0
     assert (np.diff(s.start) >= 0).all()
     block = np.repeat(np.arange(len(grid.keys)), np.diff(s.start))
-    expected = base_corner(s.x[: s.active], grid.width)
+    expected = base_corner(s.x[: s.active], grid.widths[0])
     assert (corners_of(grid.keys)[block] == expected).all()
     inside = ((s.x >= LOW) & (s.x <= HIGH)).all(axis=1)
     assert inside[: s.active].all() and not inside[s.active :].any()
