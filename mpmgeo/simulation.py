@@ -78,26 +78,28 @@ class Simulation:
         of them, here and in later snapshots. A `body_force` of the run is to be given again. Raises
         ValueError if the snapshot cannot be used or is not of the case.
         """
-        from mpmgeo.case.resume import branch_of, check_force, record_of, remarks_on, topics_of
-        from mpmgeo.mpm.persistence import take_snapshot
+        from mpmgeo.case import resume
         from mpmgeo.state.snapshot import StoredSnapshot
 
         snapshot = StoredSnapshot(path)
-        told = topics_of(path, snapshot.facts)
-        check_force(path, snapshot.facts, body_force)
+        told = resume.topics_of(path, snapshot.facts)
+        resume.check_force(path, snapshot.facts, body_force)
         if case is not None and not isinstance(case, Case):
             case = load_case(case)
-        case, changed = branch_of(path, snapshot.facts, case, allow)
+        case, changed = resume.branch_of(path, snapshot.facts, case, allow)
         simulation = cls.__new__(cls)
         simulation._build(replace(case, load_state=False), output, threads, body_force)
         simulation.case = case
-        take_snapshot(simulation.solver, snapshot)
+        resume.take_up(simulation.solver, snapshot, case, body_force)
         simulation._told = told
         simulation.goes_on = True
         if changed:
             simulation._changed()
-        simulation.changes = [*snapshot.facts.get("changes", ()), *record_of(simulation, changed)]
-        for remark in remarks_on(simulation, changed):
+        simulation.changes = [
+            *snapshot.facts.get("changes", ()),
+            *resume.record_of(simulation, changed),
+        ]
+        for remark in resume.remarks_on(simulation, changed):
             simulation.say(remark)
         return simulation
 
@@ -110,6 +112,7 @@ class Simulation:
         arrays, facts = snapshot_of(self.solver)
         facts |= {"told": sorted(self._told), "changes": self.changes, **self._case_facts}
         facts["body_force"] = self.body_force is not None
+        facts["plane_strain"] = getattr(self.solver, "is_plane", False)
         with whole_file(path) as file:
             write_snapshot(file, Snapshot(arrays, facts))
         self.snapshot = path

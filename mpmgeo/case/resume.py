@@ -1,5 +1,7 @@
 """What a snapshot says about its case, and with which case a run may go on from it."""
 
+from dataclasses import replace
+
 from mpmgeo.case.load import load_case, resolved
 from mpmgeo.case.meaning.fingerprint import FREE, differences, fingerprint, leaves
 from mpmgeo.case.report import nearest
@@ -97,6 +99,27 @@ def check_force(path, facts, body_force) -> None:
         )
     if body_force is not None and not had:
         raise ValueError(f"{path}: the run has no body_force; leave it out")
+
+
+def take_up(solver, snapshot, case, body_force) -> None:
+    """Give the solver of a case the state of a stored snapshot; ValueError if it does not fit.
+
+    One of a layer goes to a solver of all by way of the case that the snapshot is of.
+    """
+    from mpmgeo.case.building.solver import build
+    from mpmgeo.mpm.persistence import state_of, take_over, take_snapshot
+
+    if not snapshot.facts.get("plane_strain") or hasattr(solver, "unfold"):
+        take_snapshot(solver, snapshot)
+        if hasattr(solver, "fold"):
+            solver.fold()
+        return
+    changes = {"plane_strain": "auto", "load_state": False}
+    of_layer, _ = build(replace(load_case(snapshot.facts["case"]), **changes), body_force)
+    take_snapshot(of_layer, snapshot)
+    of_layer.unfold()
+    of_layer.arrange()
+    take_over(solver, state_of(of_layer.acting))
 
 
 def record_of(simulation, changed) -> list:

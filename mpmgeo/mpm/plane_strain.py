@@ -24,15 +24,18 @@ EXTENSIVE = ("m", "V", "force", "work")
 
 
 def seen_in_plane(mesh, axis):
-    """Return a mesh as kernels see it that know nothing of an axis.
+    """Return a mesh as kernels see it that know nothing of an axis, with one cell along it.
 
-    Positions along it count as zero. A node there has half a cell: it is as wide as the material.
+    All particles stand on its lower side. The nodes there have half of the cell, which is as wide
+    as the material.
     """
-    h, i = list(mesh[:3]), list(mesh[3:6])
-    h[axis], i[axis] = 2.0 * h[axis] * mesh[6 + axis], 0.0
-    return Mesh(*h, *i, *mesh[6:])
+    h, n = list(mesh[:3]), list(mesh[6:])
+    h[axis], n[axis] = 2.0 * h[axis] * n[axis], 1
+    return Mesh.of(h, n)
 
 
+SHEAR = ([3, 5], [3, 4], [4, 5])
+"""Components of stress that are zero in plane strain across x, y, z."""
 ROUND_OFF = 1e-9
 """Share of the largest value of a field by which layers may differ and count as the same."""
 
@@ -52,6 +55,15 @@ class Columns:
         """Return the rows of all particles for which those of `rows` stand, in order."""
         low = np.searchsorted(self._begin, rows)
         return np.sort(self.order[(low[:, None] + np.arange(self.layers)).ravel()])
+
+
+def to_layer(s, columns):
+    """Let particles of a set stand for their columns."""
+    s.x[:, columns.axis] = s.v[:, columns.axis] = 0.0
+    s.stress[:, SHEAR[columns.axis]] = 0.0
+    for name in EXTENSIVE:
+        if getattr(s, name) is not None:
+            getattr(s, name)[...] *= columns.layers
 
 
 class Across(Effect):
@@ -229,8 +241,8 @@ class PlaneStrain:
 
     def solver_of(self, state):
         """Return the solver that a state is one of, which acts from now on."""
-        rows = np.size(state.get("set0.row"))
-        self.acting = self.plane if rows == len(self.plane.sets[0].row) else self.whole
+        rows = getattr(state.get("set0.row"), "shape", None)
+        self.acting = self.plane if rows == self.plane.sets[0].row.shape else self.whole
         self._shown = None
         return self.acting
 
@@ -266,9 +278,7 @@ class PlaneStrain:
             for name, values in here.arrays().items():
                 if name != "row":
                     np.take(values, place[s.row], axis=0, out=getattr(s, name))
-            for name in EXTENSIVE:
-                if getattr(s, name) is not None:
-                    getattr(s, name)[...] *= self.columns.layers
+            to_layer(s, self.columns)
         return True
 
     def _is_uniform(self, here, at):
@@ -279,12 +289,11 @@ class PlaneStrain:
                 values = np.delete(values, axis, axis=1)
             if name != "row" and not _are_same(values, values[at]):
                 return False
-        plane = here.v[:, axis], here.stress[:, SHEAR[axis]]
-        return all(_are_same(a, 0.0 * a) for a in plane)
-
-
-SHEAR = ([3, 5], [3, 4], [4, 5])
-"""Components of stress that are zero in plane strain across x, y, z."""
+        across = here.v[:, axis], here.stress[:, SHEAR[axis]]
+        sizes = np.abs(here.v).max(), np.abs(here.stress).max()
+        return all(
+            np.abs(a).max() <= ROUND_OFF * size for a, size in zip(across, sizes, strict=True)
+        )
 
 
 def _are_same(values, others):

@@ -6,12 +6,12 @@ import numpy as np
 
 from mpmgeo.boundaries.planes import FREE, SLIDING
 from mpmgeo.mpm.plane_strain import (
-    EXTENSIVE,
     SHEAR,
     Across,
     Columns,
     PlaneStrain,
     seen_in_plane,
+    to_layer,
 )
 from mpmgeo.mpm.solver import SMALL
 from mpmgeo.shapes.shape import UNIFORM, widths
@@ -153,7 +153,6 @@ def _layer_of(s, columns):
     """Return the particles of a set that stand for all."""
     at = np.flatnonzero(columns.first[s.row] == s.row)
     arrays = {name: values[at].copy() for name, values in s.arrays().items()}
-    for name in EXTENSIVE:
-        if name in arrays:
-            arrays[name] *= columns.layers
-    return replace(s, **arrays)
+    layer = replace(s, **arrays)
+    to_layer(layer, columns)
+    return layer

@@ -6,7 +6,7 @@ from pathlib import Path
 from mpmgeo.case.kinds import declared, word_of
 
 TEXTS = ("title", "reference", "expected")
-FREE = (*TEXTS, "time", "n_threads", "snapshot", "load_state", "save_state")
+FREE = (*TEXTS, "time", "n_threads", "plane_strain", "snapshot", "load_state", "save_state")
 """Keys that may change while a run goes on."""
 
 
