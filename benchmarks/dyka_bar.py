@@ -1,13 +1,13 @@
 """Errors of shapes and schemes in the bar of Dyka and Ingel, in meshes that are refined.
 
-python benchmarks/dyka_bar.py [cells …]
+python benchmarks/dyka_bar.py [--missing] [cells …]
 
 The errors of velocity and stress in the mean square at the end of the run, in 3D, one cell of
-cross-section, take their places in benchmarks/results/dyka_bar.csv.
+cross-section, take their places in benchmarks/results/dyka_bar.csv; with --missing only those that it lacks.
 """
 
+import argparse
 import csv
-import sys
 import warnings
 from itertools import product
 from pathlib import Path
@@ -63,8 +63,14 @@ def word_of(shape):
 
 if __name__ == "__main__":
     warnings.simplefilter("ignore", mpmgeo.CaseWarning)
-    wanted = tuple(map(int, sys.argv[1:])) or CELLS
-    for cells, scheme, shape in product(wanted, SCHEMES, SHAPES):
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("cells", type=int, nargs="*", default=CELLS)
+    parser.add_argument("--missing", action="store_true")
+    arguments = parser.parse_args()
+    skipped = known() if arguments.missing else {}
+    for cells, scheme, shape in product(arguments.cells, SCHEMES, SHAPES):
+        if (cells, scheme, word_of(shape)) in skipped:
+            continue
         velocity, stress = measure(cells, scheme, shape)
         key = cells, scheme, word_of(shape)
         print(*key, f"{velocity:.4f}", f"{stress:.4g}", flush=True)
