@@ -43,6 +43,7 @@ def block(side, material):
         "gravity": [0.0, 0.0, -9.81],
         "mesh": {"cells_number": [side, side, side + 4], "cells_dimension": 3 * [CELL]},
         "materials": [material],
+        "plane_strain": "off",
         "body": [
             {
                 "type": "cuboid",

@@ -231,7 +231,7 @@ def test_bodies_that_do_not_span_the_thickness_stand_in_the_way():
 
 def test_it_is_told_and_can_be_switched_off():
     plane, whole = both(1)
-    note = "plane strain: nothing changes along y; one layer is solved for all 2"
+    note = "plane strain: nothing changes along y; one layer of particles is solved for all 2"
     assert note in plane.messages
     assert not [text for text in whole.messages if "plane strain" in text]
 

@@ -46,8 +46,11 @@ def in_plane_strain(case, whole, assembled, notes):
             notes.append(f"plane strain across {AXES[axis]} is not used: {reasons[axis]}")
         return whole
     columns = max(found.values(), key=lambda c: c.layers * case.mesh.cells_number[c.axis])
-    along, all_of = AXES[columns.axis], f"all {columns.layers}" if columns.layers > 1 else "it"
-    notes.append(f"plane strain: nothing changes along {along}; one layer is solved for {all_of}")
+    along = AXES[columns.axis]
+    does = "the steps leave it out"
+    if columns.layers > 1:
+        does = f"one layer of particles is solved for all {columns.layers}"
+    notes.append(f"plane strain: nothing changes along {along}; {does}")
     return PlaneStrain(_of_layer(whole, columns, assembled), whole, columns)
 
 
