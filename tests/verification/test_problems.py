@@ -93,6 +93,9 @@ def test_compaction_converges_unless_particles_cross_cells_with_linear_functions
     assert (np.diff(quadratic) < 0).all() and quadratic[-1] < 0.006
     assert (np.diff(cubic) < 0).all() and cubic[-1] < 0.002
     assert linear[-1] > linear[0] > 0.05
+    wide = {"shape": "LME", "scheme": "NPC", "lme": {"gamma": 1.8}, "courant": 0.4}
+    entropy = problem.refined([10, 20, 40], **wide).error
+    assert (np.diff(entropy) < 0).all() and entropy[-1] < 0.001
 
 
 def test_the_column_settles_as_far_as_theory_says():
