@@ -89,6 +89,10 @@ class Across(Effect):
         solver.reactions[self.axis, self.axis] = -force
         solver.reactions[3 + self.axis, self.axis] = force
 
+    def resumed(self, solver):
+        """Know the forces that were measured before."""
+        self._last = solver.reactions
+
 
 class PlaneStrain:
     """A solver of one layer that shows all of them: the state of the `whole` follows when asked.
