@@ -10,14 +10,22 @@ MOST_DIFFERENCES = 5
 SETTLED = (
     *("mesh.cells_number", "mesh.cells_dimension", "mesh.origin", "body"),
     *("n_phases", "compatibility", "load_distributed_box", "hydro_mechanical_coupling"),
-    *("initial_pressure_box", "initial_pressure_material"),
+    *("initial_stress", "initial_pressure_box", "initial_pressure_material"),
     *("prescribed_pressure_box", "pressure_force_box"),
 )
 """Keys whose effect is in the particles of a snapshot, so that they cannot change any more."""
 
 LEDGER = "results.energy"
 
-SETTLED_OF_MATERIALS = ("id", "type", "density", "density_fluid", "porosity")
+SETTLED_OF_MATERIALS = (
+    "id",
+    "type",
+    "density",
+    "density_fluid",
+    "porosity",
+    "k0",
+    "density_saturated",
+)
 
 
 def case_facts(case) -> dict:
