@@ -14,6 +14,7 @@ from mpmgeo.case.report import nearest, show
 from mpmgeo.case.spec import Case
 from mpmgeo.mpm.assignment import assign
 from mpmgeo.mpm.incidents import Unsound
+from mpmgeo.mpm.restart import restart
 from mpmgeo.naming import ENERGIES, PLANES
 from mpmgeo.numerics.chunks import most_threads
 from mpmgeo.numerics.jit import remarks
@@ -270,6 +271,11 @@ class Simulation:
         """
         assign(self.solver, key, values)
         self._changed()
+
+    def reset_displacements(self):
+        """Count time, displacements and strains from now on, at rest, with the present stresses."""
+        restart(self.solver)
+        self.changed, self.changes, self.goes_on, self._kept = self.changed + 1, [], False, None
 
     def _changed(self):
         """Begin a new balance of energy: values are others."""
