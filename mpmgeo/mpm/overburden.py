@@ -17,7 +17,8 @@ from mpmgeo.numerics.jit import compiled
 SAME = 1e-6
 """Share of the smallest edge within which bricks stand in one line."""
 
-AROUND = np.array([-1, 0, 1])
+ROWS, ENDS = np.array([[-1], [0], [1]]), np.array([-1, 2])
+"""Steps to the rows around a square, and to the first square of a range and the one after it."""
 
 
 def overburden(across, edges, height, thickness, weight):
@@ -30,62 +31,67 @@ def overburden(across, edges, height, thickness, weight):
     stress, ground = np.zeros(len(height)), height + thickness / 2
     if not len(height):
         return stress, ground
-    order, bounds = _lines(across, edges, ground)
+    square, near = _squares(across, edges.max(axis=0))
+    order, bounds = _lines(square, across, edges, ground)
     first = order[bounds[:-1]]
-    at, by_place = _near(across[first], edges[first].max(axis=0))
-    lines = (by_place, bounds, across[first], edges[first])
-    bricks = (height[order], ground[order], thickness[order], weight[order])
-    found, top = _sums(at, lines, bricks)
-    stress[order], ground[order] = found, top
+    lines = (np.searchsorted(square[first], near(square[first])), bounds)
+    bricks = (across, edges, height, ground, 1 / thickness, weight / edges.prod(axis=1))
+    stress[order], ground[order] = _sums(*lines, *(of[order] for of in bricks))
     return stress, ground
 
 
-def _lines(across, edges, top):
-    """Return the order of the bricks line by line, the highest first, and bounds of the lines."""
+def _squares(across, width):
+    """Return in which square bricks stand (n,), and what tells which squares are near to some.
+
+    Squares, of the `width` (2,) [m] of the widest brick, are numbered row after row: those near to
+    one are three ranges, bounds of which are returned, (n, 3, 2).
+    """
+    place = np.floor((across - across.min(axis=0)) / width).astype(np.int64) + 1
+    row = place[:, 1].max() + 2
+    return place[:, 0] * row + place[:, 1], lambda number: number[:, None, None] + row * ROWS + ENDS
+
+
+def _lines(square, across, edges, top):
+    """Return the order of the bricks, square by square and line by line, and bounds of the lines.
+
+    The highest of a line is the first.
+    """
     places = np.round(np.hstack([across, edges]) / (SAME * edges.min()))
-    order = np.lexsort((-top, *places.T))
-    begins = (np.diff(places[order], axis=0) != 0).any(axis=1)
+    order = np.lexsort((-top, *places.T, square))
+    places, square = places[order], square[order]
+    begins = (np.diff(places, axis=0) != 0).any(axis=1) | (np.diff(square) != 0)
     return order, np.concatenate([[0], np.flatnonzero(begins) + 1, [len(order)]])
 
 
-def _near(centre, width):
-    """Return where lines that may overlap stand in an order by place, and that order.
-
-    `width` (2,) [m] of the widest. Places are squares of that width, numbered row after row: those
-    near to one are three ranges, (lines, 3, 2).
-    """
-    square = np.floor((centre - centre.min(axis=0)) / width).astype(np.int64) + 1
-    rows = square[:, 1].max() + 2
-    number = square[:, 0] * rows + square[:, 1]
-    by_place = np.argsort(number, kind="stable")
-    middle = number[:, None] + rows * AROUND
-    low = np.searchsorted(number[by_place], middle - 1, side="left")
-    high = np.searchsorted(number[by_place], middle + 1, side="right")
-    return np.stack([low, high], axis=2), by_place
-
-
 @compiled
-def _sums(at, lines, bricks):
-    """Return stress and ground of all bricks in the order of their lines."""
-    by_place, bounds, centre, edge = lines
-    height, top, thickness, weight = bricks
+def _sums(near, bounds, centre, edge, height, top, slope, pressure):
+    """Return stress and ground of all bricks, which are in the order of their lines.
+
+    `slope` [1/m]: 1 over the thickness; `pressure` [Pa]: weight over the base.
+    """
     stress, ground = np.zeros(len(height)), top.copy()
-    for a in range(len(centre)):
+    for a in range(len(near)):
+        i = bounds[a]
+        x, y, dx, dy = centre[i, 0], centre[i, 1], edge[i, 0], edge[i, 1]
+        part, lowest = 1.0 / (dx * dy), height[i : bounds[a + 1]].min()
         for r in range(3):
-            for b in by_place[at[a, r, 0] : at[a, r, 1]]:
-                share, apart = 1.0, False
-                for c in range(2):
-                    way, reach = abs(centre[a, c] - centre[b, c]), edge[a, c] + edge[b, c]
-                    common = min(0.5 * reach - way, edge[a, c], edge[b, c])
-                    share *= max(common, 0.0) / (edge[a, c] * edge[b, c])
-                    apart = apart or way > 0.5 * edge[b, c]
-                if share > 0.0:
-                    for p in range(bounds[a], bounds[a + 1]):
-                        for q in range(bounds[b], bounds[b + 1]):
-                            above = top[q] - height[p]
-                            if above <= 0.0:
-                                break
-                            stress[p] += share * weight[q] * min(above / thickness[q], 1.0)
-                        if not apart:
-                            ground[p] = max(ground[p], top[bounds[b]])
+            for b in range(near[a, r, 0], near[a, r, 1]):
+                j = bounds[b]
+                if top[j] <= lowest:
+                    continue
+                wx, wy = abs(x - centre[j, 0]), abs(y - centre[j, 1])
+                ex, ey = edge[j, 0], edge[j, 1]
+                X = min(0.5 * (dx + ex) - wx, dx, ex)
+                Y = min(0.5 * (dy + ey) - wy, dy, ey)
+                if not (X > 0.0 and Y > 0.0):
+                    continue
+                share = X * Y * part
+                for p in range(i, bounds[a + 1]):
+                    for q in range(j, bounds[b + 1]):
+                        above = top[q] - height[p]
+                        if above <= 0.0:
+                            break
+                        stress[p] += share * pressure[q] * min(above * slope[q], 1.0)
+                    if wx <= 0.5 * ex and wy <= 0.5 * ey:
+                        ground[p] = max(ground[p], top[j])
     return stress, ground
