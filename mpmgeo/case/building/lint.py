@@ -47,7 +47,7 @@ def lint(simulation) -> list[str]:
         *limits(case),
         *locking(case, position, partial(simulation.field, "material")),
         *out_of_proportion(case, position, body, simulation.time_step),
-        *unlikely_rest(case, simulation.solver.population, partial(simulation.field, "stress")),
+        *unlikely_rest(case, simulation),
         *overlaps(case, position, body, partial(simulation.field, "mass")),
     ]
 

@@ -10,13 +10,14 @@ FEW, MANY = 0.1, 5.0
 """Horizontal over vertical stress beyond which no ground has been found at rest."""
 
 
-def unlikely_rest(case, population, stress) -> Iterator[str]:
-    """Yield warnings, one sentence each; the case is in coordinates of the mesh.
+def unlikely_rest(case, simulation) -> Iterator[str]:
+    """Yield warnings about a simulation that has not started yet, one sentence each.
 
-    `stress()`: those of all particles at the start (n, 6) [Pa], effective.
+    The case is in coordinates of the mesh.
     """
-    if case.initial_stress is None or not len(population.position):
+    if case.initial_stress is None or not simulation.solver.count:
         return
+    population = simulation.solver.population
     g, used = down(case), set(population.material.tolist())
     for law in {law.id: law for law in reversed(case.materials)}.values():
         k0 = law_k0(case, law)
@@ -25,7 +26,7 @@ def unlikely_rest(case, population, stress) -> Iterator[str]:
                 f"initial_stress: K0 {k0:.3g} of material {law.id}; ground at rest has {FEW:g} to "
                 f"{MANY:g}"
             )
-    pulled = np.count_nonzero(stress()[:, g.axis] > 0)
+    pulled = np.count_nonzero(simulation.field("stress")[:, g.axis] > 0)
     if pulled:
         yield (
             f"initial_stress: {pulled} particles begin with pore pressures above the weight on "
