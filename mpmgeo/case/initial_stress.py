@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from mpmgeo.parameters import parameter
+from mpmgeo.parameters import HEIGHT, parameter
 
 
 @dataclass(frozen=True)
@@ -16,7 +16,10 @@ class InitialStress:
         default=None,
     )
     water_table: float | None = parameter(
-        "Height of the water table, on the axis of gravity; absent: none", unit="m", default=None
+        "Height of the water table, on the axis of gravity; absent: none",
+        unit="m",
+        place=HEIGHT,
+        default=None,
     )
     density_water: float = parameter(
         "Density of the water under the table; with two phases that of the fluid counts",

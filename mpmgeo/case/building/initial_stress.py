@@ -103,16 +103,11 @@ def _soak(case, sets, population, laws, g):
     table = case.initial_stress.water_table
     if table is None or case.n_phases == 2:
         return
-    below = g.up * (population.position[:, g.axis] - table_in_mesh(case, g)) < 0
+    below = g.up * (population.position[:, g.axis] - table) < 0
     for s in sets:
         law = case.materials[laws[s.row[0]]]
         if law.density_saturated is not None:
             s.m = np.where(below[s.row], law.density_saturated * s.V, s.m)
-
-
-def table_in_mesh(case, g) -> float:
-    """Return where the water table cuts the axis of gravity, in coordinates of the mesh [m]."""
-    return case.initial_stress.water_table - case.mesh.zero[g.axis]
 
 
 def _borne(case, sets, population, tools, axis):
@@ -137,7 +132,7 @@ def _pressures(case, sets, population, laws, g, height, ground, notes):
             pressure = s.pf if two else s.pressure
             u[s.row] = 0.0 if pressure is None else pressure
         return u
-    table = g.up * table_in_mesh(case, g)
+    table = g.up * start.water_table
     depth = np.maximum(np.minimum(table, ground) - height, 0.0)
     for s in sets:
         law = case.materials[laws[s.row[0]]]

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mpmgeo.case.building.initial_stress import down, law_k0, table_in_mesh
+from mpmgeo.case.building.initial_stress import down, law_k0
 
 FEW, MANY = 0.1, 5.0
 """Horizontal over vertical stress beyond which no ground has been found at rest."""
@@ -38,8 +38,9 @@ def unlikely_rest(case, simulation) -> Iterator[str]:
 
 def _of_table(case, population, g):
     x, half = population.position[:, g.axis], population.size[:, g.axis] / 2
-    up, table = g.up, g.up * table_in_mesh(case, g)
-    key, at = "initial_stress.water_table", f"{case.initial_stress.water_table:g} m"
+    up, table = g.up, g.up * case.initial_stress.water_table
+    height = case.initial_stress.water_table + case.mesh.zero[g.axis]
+    key, at = "initial_stress.water_table", f"{height:g} m"
     if table > (up * x + half).max() + half.max():
         yield f"{key}: {at} is above all bodies"
     elif table <= (up * x - half).min():
