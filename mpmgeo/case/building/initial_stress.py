@@ -29,20 +29,27 @@ class Down(NamedTuple):
 
 
 def down(case) -> Down:
-    """Return gravity at the start; the checks of a case have seen that it is along an axis."""
-    g = case.gravity
-    factor, value = 1.0, g
-    if isinstance(g, Gravity):
-        factor, value = 1.0 if g.course is None else g.course.at(0.0), g.value
-    axis = int(np.abs(value).argmax())
-    return Down(axis, -float(np.sign(factor * value[axis])), abs(factor * value[axis]))
+    """Return gravity at the start; raises ValueError for one that is not along an axis."""
+    gravity, factor = case.gravity, 1.0
+    if isinstance(gravity, Gravity):
+        factor = 1.0 if gravity.course is None else gravity.course.at(0.0)
+        gravity = gravity.value
+    g = factor * np.array(gravity)
+    if np.count_nonzero(g) != 1:
+        wanted = "along an axis" if g.any() else "not zero"
+        raise ValueError(
+            f"gravity: is {g.tolist()} at the start; initial_stress needs one {wanted}"
+        )
+    axis = int(np.abs(g).argmax())
+    return Down(axis, -float(np.sign(g[axis])), abs(float(g[axis])))
 
 
 def begin(case, sets, population, laws, tools, notes):
     """Give the particles the stresses and pore pressures that a case begins with.
 
     `laws` (n,): position in `case.materials` of each particle's law; `tools`: prescribed velocities
-    or None. Raises ValueError for a file that does not fit, or a K0 that a law cannot bear.
+    or None. Raises ValueError for a file that does not fit, gravity that is not along an axis, or a
+    K0 that a law cannot bear.
     """
     if case.load_state:
         load_stress(case, sets, len(population.position))
@@ -62,7 +69,7 @@ def _rest(case, sets, population, laws, tools, notes):
     u = _pressures(case, sets, population, laws, g, height, ground, notes)
     vertical = total - u
     k0 = []
-    for index in np.unique(laws):
+    for index in sorted(np.unique(laws), key=lambda index: case.materials[index].id):
         rows, law = laws == index, case.materials[index]
         k0.append(f"{law_k0(case, law):.3g} of material {law.id}")
         _check_k0(case, law, float(vertical[rows].max()))

@@ -1,8 +1,5 @@
 """What the stresses of overburden at the start need, and what does not go with them."""
 
-import numpy as np
-
-from mpmgeo.loads import Gravity
 from mpmgeo.materials.hyperelastic import is_hyperelastic
 from mpmgeo.values import shown
 
@@ -26,7 +23,6 @@ def check_start(draft, report):
         report.error((KEY,), "MPM-Geomechanics knows no stresses of overburden; leave one out")
     if case.values.get("load_state"):
         report.error((KEY,), "load_state has the stresses at the start; leave one of them out")
-    _check_gravity(draft, report)
     _check_materials(draft, report)
     if start.values.get("water_table") is None:
         for part in draft.of("materials"):
@@ -40,22 +36,6 @@ def check_start(draft, report):
         report.error(start.at("water_table"), message)
     if two:
         _check_fluids(draft, start, report)
-
-
-def _check_gravity(draft, report):
-    """Report gravity that is not along an axis when the run begins."""
-    gravity = draft.whole.values.get("gravity")
-    if isinstance(gravity, Gravity):
-        course = gravity.course
-        factor = 1.0 if course is None else course.at(0.0)
-        gravity = tuple(factor * g for g in gravity.value)
-    if gravity is None:  # wrong, as has been reported
-        return
-    along = np.count_nonzero(gravity)
-    if along != 1:
-        found = f"at the start is {shown(list(gravity))}"
-        wanted = "not zero" if along == 0 else "along an axis"
-        report.error(("gravity",), f"{found}; {KEY} needs one that is {wanted}")
 
 
 def _check_materials(draft, report):
