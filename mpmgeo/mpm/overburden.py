@@ -12,7 +12,7 @@ not particles, are compared.
 
 import numpy as np
 
-from mpmgeo.numerics.jit import compiled
+from mpmgeo.numerics.jit import compiled, inlined
 
 SAME = 1e-6
 """Share of the smallest edge within which bricks stand in one line."""
@@ -63,6 +63,23 @@ def _lines(square, across, edges, top):
     return order, np.concatenate([[0], np.flatnonzero(begins) + 1, [len(order)]])
 
 
+@inlined
+def _borne(h, first, last, top, slope, pressure, above, thickest):
+    """Return what the bricks first … last − 1 of a line weigh above a height h on their base [Pa].
+
+    `above`: what the bricks of a line weigh down to each; `thickest` of the line [m].
+    """
+    low, high = first, last
+    while low < high:  # to the number of those whose upper face lies above h
+        middle = (low + high) // 2
+        low, high = (middle + 1, high) if top[middle] > h else (low, middle)
+    q, sum = low - 1, 0.0
+    while q >= first and top[q] < h + thickest:
+        sum += pressure[q] * min((top[q] - h) * slope[q], 1.0)
+        q -= 1
+    return sum + above[q] if q >= first else sum
+
+
 @compiled
 def _sums(near, bounds, centre, edge, height, top, slope, pressure):
     """Return stress and ground of all bricks, which are in the order of their lines.
@@ -70,10 +87,14 @@ def _sums(near, bounds, centre, edge, height, top, slope, pressure):
     `slope` [1/m]: 1 over the thickness; `pressure` [Pa]: weight over the base.
     """
     stress, ground = np.zeros(len(height)), top.copy()
+    above, thickest = np.empty(len(height)), np.empty(len(near))
     for a in range(len(near)):
-        i = bounds[a]
+        of = slice(bounds[a], bounds[a + 1])
+        above[of], thickest[a] = np.cumsum(pressure[of]), 1.0 / slope[of].min()
+    for a in range(len(near)):
+        i, end = bounds[a], bounds[a + 1]
         x, y, dx, dy = centre[i, 0], centre[i, 1], edge[i, 0], edge[i, 1]
-        part, lowest = 1.0 / (dx * dy), height[i : bounds[a + 1]].min()
+        part, lowest = 1.0 / (dx * dy), height[i:end].min()
         for r in range(3):
             for b in range(near[a, r, 0], near[a, r, 1]):
                 j = bounds[b]
@@ -85,13 +106,11 @@ def _sums(near, bounds, centre, edge, height, top, slope, pressure):
                 Y = min(0.5 * (dy + ey) - wy, dy, ey)
                 if not (X > 0.0 and Y > 0.0):
                     continue
-                share = X * Y * part
-                for p in range(i, bounds[a + 1]):
-                    for q in range(j, bounds[b + 1]):
-                        above = top[q] - height[p]
-                        if above <= 0.0:
-                            break
-                        stress[p] += share * pressure[q] * min(above * slope[q], 1.0)
-                    if wx <= 0.5 * ex and wy <= 0.5 * ey:
+                covers, share = wx <= 0.5 * ex and wy <= 0.5 * ey, X * Y * part
+                for p in range(i, end):
+                    stress[p] += share * _borne(
+                        height[p], j, bounds[b + 1], top, slope, pressure, above, thickest[b]
+                    )
+                    if covers:
                         ground[p] = max(ground[p], top[j])
     return stress, ground

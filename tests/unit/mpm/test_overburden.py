@@ -71,3 +71,15 @@ def test_weights_of_scattered_particles_are_borne_in_the_mean():
 def test_nothing_bears_nothing():
     empty = np.empty((0, 2)), np.empty((0, 2)), np.empty(0), np.empty(0), np.empty(0)
     assert all(len(part) == 0 for part in overburden(*empty))
+
+
+def test_bricks_of_a_line_may_overlap_and_differ_in_thickness():
+    """As the sum over all of them, one by one."""
+    random = np.random.default_rng(3)
+    height, thickness = random.uniform(0, 5, 200), random.uniform(0.1, 2, 200)
+    weight, one = random.uniform(1, 2, 200), np.ones((200, 2))
+    found, ground = overburden(0 * one, one, height, thickness, weight)
+    top = height + thickness / 2
+    share = np.clip((top[None] - height[:, None]) / thickness, 0, 1)
+    assert found == pytest.approx(share @ weight)
+    assert ground == pytest.approx(top.max())
