@@ -8,7 +8,8 @@ from collections.abc import Iterator
 
 HOOKS = (
     *("after_sort", "begin", "before_nodes", "after_nodes", "after_remap", "before_gather"),
-    *("after_gather", "end", "stopped", "resumed", "keeping", "cutting", "news"),
+    *("after_gather", "end", "stopped", "resumed", "restarted", "keeping"),
+    *("cutting", "news"),
 )
 """Methods that a solver calls in or between steps."""
 
@@ -57,6 +58,9 @@ class Effect:
 
     def resumed(self, solver):
         """The solver has taken a state from which it goes on."""
+
+    def restarted(self, solver):
+        """Time counts from 0 again, at rest, with the stresses that there are."""
 
     def keeping(self, walls):
         """Return those of the planes, `walls`, that particles do not pass, as far as it knows."""

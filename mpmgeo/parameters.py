@@ -7,6 +7,9 @@ Vector = tuple[float, float, float]
 Components = tuple[float | None, float | None, float | None]
 Counts = tuple[int, int, int]
 
+HEIGHT = "height"
+"""`place` of a coordinate on the axis of gravity."""
+
 
 def parameter(
     doc,
@@ -31,11 +34,11 @@ def parameter(
     `doc` is one sentence; `unit` is SI ("" for none); `above`/`below` are open bounds, `minimum`/
     `maximum` closed ones, and bound every component of a vector; `choices` lists the accepted
     words; `file` marks the name of a file, resolved against the case's folder; `place` marks a
-    position, or several, in the user's coordinates; `key` is the JSON key where it is not the name
-    of the field; `several`: a list of objects is accepted in the place of one; `word`: the word of
-    its type is, if it says nothing else; `names`: the key of the entries of the case whose names
-    are accepted in the place of a number; `last`: the key comes after those of the classes that
-    inherit it. Without a `default` the key is required.
+    position, or several, in the user's coordinates, HEIGHT the one on the axis of gravity; `key` is
+    the JSON key where it is not the name of the field; `several`: a list of objects is accepted in
+    the place of one; `word`: the word of its type is, if it says nothing else; `names`: the key of
+    the entries of the case whose names are accepted in the place of a number; `last`: the key comes
+    after those of the classes that inherit it. Without a `default` the key is required.
     """
     bounds = {"above": above, "minimum": minimum, "below": below, "maximum": maximum}
     metadata = {

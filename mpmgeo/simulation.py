@@ -1,6 +1,5 @@
 """A case that runs: what scripts and the command line work with."""
 
-from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 
@@ -49,11 +48,11 @@ class Simulation:
         self.warnings = lint(self)
         show(self.warnings)
 
-    def _build(self, case, output, threads, body_force):
+    def _build(self, case, output, threads, body_force, starts=True):
         self.case, self.body_force = case, body_force
         self.output = None if output is None else Path(output)
         self.messages = [*case.notes, *case.warnings]
-        self.solver, notes = build(case, body_force)
+        self.solver, notes = build(case, body_force, starts)
         self.probes = in_mesh(case.results, case.mesh.origin).probes
         self.messages += [*notes, *remarks()]
         self.threads = self._set_threads(threads or case.n_threads)
@@ -88,9 +87,8 @@ class Simulation:
             case = load_case(case)
         case, changed = resume.branch_of(path, snapshot.facts, case, allow)
         simulation = cls.__new__(cls)
-        simulation._build(replace(case, load_state=False), output, threads, body_force)
-        simulation.case = case
-        resume.take_up(simulation.solver, snapshot, case, body_force)
+        simulation._build(case, output, threads, body_force, starts=False)
+        resume.take_up(simulation.solver, snapshot, body_force)
         simulation._told = told
         simulation.goes_on = True
         if changed:
@@ -275,6 +273,11 @@ class Simulation:
         """
         assign(self.solver, key, values)
         self._changed()
+
+    def reset_displacements(self):
+        """Count time, displacements and strains from now on, at rest, with the present stresses."""
+        self.solver.restart()
+        self.changed, self.changes, self.goes_on, self._kept = self.changed + 1, [], False, None
 
     def _changed(self):
         """Begin a new balance of energy: values are others."""

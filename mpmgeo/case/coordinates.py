@@ -7,18 +7,23 @@ comparison with its coordinates. Declarations mark what is a position (`paramete
 
 from dataclasses import fields, is_dataclass, replace
 
-from mpmgeo.parameters import Placed
+from mpmgeo.parameters import HEIGHT, Placed
 
 
-def in_mesh(part, origin):
+def in_mesh(part, origin, axis=None):
     """Return a case, or a part of one, in coordinates of the mesh that begins at `origin` (3,) [m].
 
-    What does not change is the same object, with all that it has read from files.
+    What does not change is the same object, with all that it has read from files. `axis`: of the
+    case's gravity, for heights.
     """
     changes = {}
+    axis = _axis_of_gravity(part.gravity) if hasattr(part, "gravity") else axis
     for item in fields(part):
-        old = getattr(part, item.name)
-        new = _minus(old, origin) if item.metadata.get("place") else _inside(old, origin)
+        old, place = getattr(part, item.name), item.metadata.get("place")
+        if place == HEIGHT:
+            new = old if old is None or not origin[axis] else old - origin[axis]
+        else:
+            new = _minus(old, origin) if place else _inside(old, origin, axis)
         if new is not old:
             changes[item.name] = new
     counts_from_there = not isinstance(part, Placed) or part.zero == origin
@@ -40,13 +45,18 @@ def reading_in_mesh(part, origin):
     return in_mesh(part, origin) if isinstance(part, Placed) and is_elsewhere else part
 
 
-def _inside(value, origin):
+def _axis_of_gravity(gravity):
+    """Return the axis along which gravity, constant or in time, is largest."""
+    return max(range(3), key=lambda axis: abs(getattr(gravity, "value", gravity)[axis]))
+
+
+def _inside(value, origin, axis):
     """Return what a field holds with all parts of a case in it moved."""
     if is_dataclass(value):
-        return in_mesh(value, origin)
+        return in_mesh(value, origin, axis)
     if not isinstance(value, tuple) or not any(map(is_dataclass, value[:1])):
         return value
-    moved = tuple(in_mesh(entry, origin) for entry in value)
+    moved = tuple(in_mesh(entry, origin, axis) for entry in value)
     return value if all(a is b for a, b in zip(value, moved, strict=True)) else moved
 
 

@@ -12,14 +12,22 @@ MOST_DIFFERENCES = 5
 SETTLED = (
     *("mesh.cells_number", "mesh.cells_dimension", "mesh.origin", "body"),
     *("n_phases", "compatibility", "load_distributed_box", "hydro_mechanical_coupling"),
-    *("initial_pressure_box", "initial_pressure_material"),
+    *("initial_stress", "initial_pressure_box", "initial_pressure_material"),
     *("prescribed_pressure_box", "pressure_force_box"),
 )
 """Keys whose effect is in the particles of a snapshot, so that they cannot change any more."""
 
 LEDGER = "results.energy"
 
-SETTLED_OF_MATERIALS = ("id", "type", "density", "density_fluid", "porosity")
+SETTLED_OF_MATERIALS = (
+    "id",
+    "type",
+    "density",
+    "density_fluid",
+    "porosity",
+    "k0",
+    "density_saturated",
+)
 
 
 def case_facts(case) -> dict:
@@ -101,8 +109,8 @@ def check_force(path, facts, body_force) -> None:
         raise ValueError(f"{path}: the run has no body_force; leave it out")
 
 
-def take_up(solver, snapshot, case, body_force) -> None:
-    """Give the solver of a case the state of a stored snapshot; ValueError if it does not fit.
+def take_up(solver, snapshot, body_force) -> None:
+    """Give a solver the state of a stored snapshot; ValueError if it does not fit.
 
     One of a layer goes to a solver of all by way of the case that the snapshot is of.
     """
@@ -114,8 +122,8 @@ def take_up(solver, snapshot, case, body_force) -> None:
         if hasattr(solver, "fold"):
             solver.fold()
         return
-    changes = {"plane_strain": "auto", "load_state": False}
-    of_layer, _ = build(replace(load_case(snapshot.facts["case"]), **changes), body_force)
+    case = replace(load_case(snapshot.facts["case"]), plane_strain="auto")
+    of_layer, _ = build(case, body_force, starts=False)
     take_snapshot(of_layer, snapshot)
     of_layer.unfold()
     of_layer.arrange()

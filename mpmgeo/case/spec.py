@@ -13,6 +13,7 @@ from pathlib import Path
 from mpmgeo.bodies import BODIES
 from mpmgeo.boundaries.planes import BoundaryConditions
 from mpmgeo.boundaries.terrain import TerrainContact
+from mpmgeo.case.initial_stress import InitialStress
 from mpmgeo.case.method import Method
 from mpmgeo.damping import DAMPINGS, NoDamping
 from mpmgeo.loads import LOADS, Gravity
@@ -223,6 +224,9 @@ class Settings:
     )
     load_state: bool = parameter(
         "Whether the stresses of particle_stress_data.json are the initial ones", default=False
+    )
+    initial_stress: InitialStress | None = parameter(
+        "Stresses of overburden at the start; absent: none", default=None
     )
     snapshot: SnapshotPlan | None = parameter(
         "Complete states of the run, from which it can go on", default=None

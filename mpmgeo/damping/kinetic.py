@@ -45,6 +45,10 @@ class Stops(Effect):
         self.last = energy
         solver.clock.lap(self.name)
 
+    def restarted(self, solver):
+        """Compare with rest."""
+        self.last = 0.0
+
     def held(self):
         """Return the energy to compare with."""
         return {"last_energy": self.last}
@@ -73,6 +77,11 @@ class StopsLater(Stops):
         self.due = energy < self.last
         self.last = 0.0 if self.due else energy
         solver.clock.lap(self.name)
+
+    def restarted(self, solver):
+        """Compare with rest; nothing is to be stopped."""
+        super().restarted(solver)
+        self.due = False
 
     def held(self):
         """Return the energy to compare with, and whether the particles are to be stopped."""

@@ -43,6 +43,11 @@ class Elastic(Law):
         K = self.young / (3 * (1 - 2 * self.poisson))
         return Moduli(λ=K - 2 * G / 3, G2=2 * G)
 
+    @property
+    def k0_at_rest(self) -> float:
+        """Return ν/(1 − ν), that of a load without lateral strain."""
+        return self.poisson / (1 - self.poisson)
+
     def sound_speed(self) -> float:
         """Return the speed of the compression wave [m/s]."""
         E, ν = self.young, self.poisson

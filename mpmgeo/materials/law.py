@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 from math import inf
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 from mpmgeo.materials.hyperelastic import is_hyperelastic
 from mpmgeo.materials.rotation import objective_rate
@@ -22,13 +22,30 @@ class Moduli(NamedTuple):
 
 @dataclass(frozen=True)
 class Law:
-    """A material; laws add their parameters, `symbols` and `sound_speed()`."""
+    """A material; laws add their parameters, `symbols` and `sound_speed()`.
+
+    `is_fluid`: whether it has no pores, and at rest the same pressure in all directions.
+    """
+
+    is_fluid: ClassVar[bool] = False
 
     id: int = parameter("Number by which bodies refer to the material")
     density: float = parameter(
         "Initial density; with two phases that of the grains", unit="kg/m³", above=0
     )
     objective_rate: str = objective_rate("none")
+    k0: float | None = parameter(
+        "Horizontal over vertical effective stress with initial_stress; absent: that of all "
+        "materials, or what the law has by itself",
+        above=0,
+        default=None,
+    )
+    density_saturated: float | None = parameter(
+        "Density below the water table of initial_stress, with one phase; absent: `density`",
+        unit="kg/m³",
+        above=0,
+        default=None,
+    )
     density_fluid: float | None = parameter(
         "Density of the pore fluid; required with two phases", unit="kg/m³", above=0, default=None
     )
@@ -53,6 +70,18 @@ class Law:
             speed = inf
         if not (is_usable(self.density) and is_usable(speed)):
             yield "density", f"{self.density:g} kg/m³ and the stiffness make no usable wave speed"
+        if self.density_saturated is not None and self.density_saturated < self.density:
+            message = f"{self.density_saturated:g} kg/m³ is less than density, {self.density:g}"
+            yield "density_saturated", f"{message}; water adds to it"
+
+    @property
+    def k0_at_rest(self) -> float:
+        """Return horizontal over vertical effective stress at rest: of a law that is silent, 1."""
+        return 1.0
+
+    def k0_range(self, vertical: float) -> tuple[float, float]:
+        """Return which k0 the law can bear under a vertical effective stress [Pa], above 0."""
+        return -inf, inf
 
     @property
     def symbols_as_mpm_geomechanics(self):

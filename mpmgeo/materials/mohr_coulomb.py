@@ -14,12 +14,13 @@ with the strengths of εp before the step (`mohr_coulomb_strength.py`). What ten
 close before stress returns (`opening.py`). For large rotations the stress turns with the Jaumann
 rate unless another is chosen.
 
-Source: de Souza Neto, Perić and Owen, Computational Methods for Plasticity (2008), chapter 8.
+Source: de Souza Neto, Perić and Owen, Computational Methods for Plasticity (2008), chapter 8; at
+rest Jaky (1944), J. Soc. Hung. Eng. Archit. 78, 355–358.
 """
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import inf, radians, sqrt, tan
+from math import inf, radians, sin, sqrt, tan
 from typing import ClassVar
 
 from mpmgeo.materials import mohr_coulomb_legacy
@@ -131,6 +132,19 @@ class MohrCoulomb(Elastic):
             yield active, f'{none} softening is not "exponential"'
         elif self.su_vertical_stress > 0 and key in ("friction", "cohesion"):
             yield active, f"{none} su_vertical_stress takes the place of {key}"
+
+    @property
+    def k0_at_rest(self) -> float:
+        """Return 1 − sin φ (Jaky 1944), 1 for undrained strength, which knows no φ."""
+        return 1.0 - (0.0 if self.su_vertical_stress > 0 else sin(self._peak("friction")))
+
+    def k0_range(self, vertical: float) -> tuple[float, float]:
+        """Return Ka and Kp, between which N σ₃ − σ₁ ≤ σc, with principal stresses on the axes."""
+        if self.su_vertical_stress > 0:
+            return 1 - 2 * self.su_vertical_stress, 1 + 2 * self.su_vertical_stress
+        N = flow_number(self._peak("friction"))
+        bond = 2 * self.cohesion * sqrt(N) / vertical
+        return (1 - bond) / N, N + bond
 
     def _softens(self, key):
         return self.softening != "none" and getattr(self, f"{key}_active")

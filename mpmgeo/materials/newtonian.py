@@ -42,6 +42,7 @@ class Newtonian(Law):
     """Slightly compressible viscous fluid."""
 
     type: ClassVar[str] = "newtonian"
+    is_fluid: ClassVar[bool] = True
 
     viscosity: float = parameter("Dynamic viscosity", unit="Pa s", minimum=0, default=0.0)
     bulk: float = parameter("Bulk modulus", unit="Pa", above=0)

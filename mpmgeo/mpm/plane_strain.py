@@ -158,6 +158,7 @@ class PlaneStrain:
     def _show(self):
         plane, whole = self.plane, self.whole
         whole.time, whole.steps = plane.time, plane.steps
+        whole.population, whole.moved_origin = plane.population, plane.moved_origin
         whole.gone = whole.count
         for s, here, rows in zip(plane.sets, whole.sets, self._rows, strict=True):
             self._spread(s, here, rows)
@@ -238,6 +239,17 @@ class PlaneStrain:
         if self.is_plane and not self._fold():
             self._hand_over(self.plane, self.whole)
 
+    def restart(self):
+        """Count time and displacements from now on, at rest, with the present stresses."""
+        was_plane = self.is_plane
+        self.unfold()
+        self.whole.restart()
+        if was_plane:
+            self.fold()
+            for restarted in self.plane.asked["restarted"]:
+                restarted(self.plane)
+            self._shown = None
+
     def restore(self, kept):
         """Go back to the state that `keep` returned."""
         self.acting.restore(kept)
@@ -268,6 +280,7 @@ class PlaneStrain:
             head = f"{name}."
             owners[name].take({n[len(head) :]: v for n, v in state.items() if n.startswith(head)})
         new.time, new.steps, new.peak_energy = old.time, old.steps, old.peak_energy
+        new.population, new.moved_origin = old.population, old.moved_origin
         new.clock, new.gone, self.acting = old.clock, sum(len(s.row) for s in new.sets), new
         for resumed in new.asked["resumed"]:
             resumed(new)
@@ -291,7 +304,7 @@ class PlaneStrain:
         for name, values in here.arrays().items():
             if name == "x":
                 values = np.delete(values, axis, axis=1)
-            if name != "row" and not _are_same(values, values[at]):
+            if name != "row" and not are_same(values, values[at]):
                 return False
         across = here.v[:, axis], here.stress[:, SHEAR[axis]]
         sizes = np.abs(here.v).max(), np.abs(here.stress).max()
@@ -300,7 +313,7 @@ class PlaneStrain:
         )
 
 
-def _are_same(values, others):
+def are_same(values, others):
     """Tell whether values are others but for round-off."""
     size = np.abs(values).max(initial=0.0)
     return bool((np.abs(values - others) <= ROUND_OFF * size).all())

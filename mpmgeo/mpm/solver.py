@@ -15,12 +15,13 @@ from mpmgeo.mpm.incidents import Departures, Unsound
 from mpmgeo.mpm.locking import CellMeans
 from mpmgeo.mpm.newmark import Newmark
 from mpmgeo.mpm.persistence import copy_of, state_of, take_over
+from mpmgeo.mpm.restart import origin_of, restart
 from mpmgeo.mpm.schemes import first_step
 from mpmgeo.mpm.stages import Stages
 from mpmgeo.mpm.tally import tally
 from mpmgeo.mpm.task import OnePhase
 from mpmgeo.numerics.clock import Clock
-from mpmgeo.state.checked import demand, number_from, whole_from
+from mpmgeo.state.checked import array_from, demand, number_from, whole_from
 from mpmgeo.state.grid import Grid
 from mpmgeo.state.inspection import first_unsound, kinetic_energy
 from mpmgeo.state.particles import ParticleSet, Population, opens_under_pressure
@@ -66,6 +67,7 @@ class Solver(Stages):
         self.ledger = None  # of energy, if it is asked for
         self.peak_energy = None  # before the particles were stopped in the last step, if they were
         self.gone = self.count  # how many particles are not where the order says
+        self.moved_origin = False  # whether displacements count from a later time than the start
         self.motion = STILL  # of a plane that moves
         self.driven = None, ()  # model and arrays of nodes whose velocity is prescribed
         self.nodal = OnePhase()
@@ -225,6 +227,10 @@ class Solver(Stages):
     def assigned(self):
         """Take note that somebody has given particles other values."""
 
+    def restart(self):
+        """Count time and displacements from now on, at rest, with the present stresses."""
+        restart(self)
+
     # What a run must hold to go on
 
     def solver_of(self, state):
@@ -242,7 +248,7 @@ class Solver(Stages):
 
     def held(self):
         """Return the solver's own part, by name."""
-        return {name: getattr(self, name) for name in COUNTERS}
+        return {name: getattr(self, name) for name in COUNTERS} | origin_of(self)
 
     def take(self, state):
         """Go on with what `held` once returned; ValueError if the parts do not fit together."""
@@ -251,6 +257,12 @@ class Solver(Stages):
         if (peak := state.pop("peak_energy")) is not None:
             peak = number_from({"peak_energy": peak}, "peak_energy")
         self.peak_energy = peak
+        if self.moved_origin or "origin" in state:
+            origin = array_from(state, "origin", np.float64, self.population.position.shape)
+            self.population, self.moved_origin = (
+                self.population._replace(position=origin.copy()),
+                True,
+            )
         blocks = len(self.grid.keys)
         for s in self.sets:
             unsorted = blocks == 0 and (self.gone > 0 or s.active == 0)

@@ -11,7 +11,8 @@ def saturate(case, sets, population, laws):
 
     `laws` (n,): position in `case.materials` of each particle's law.
     """
-    pressure, held = _pressure(case, population)
+    pressure = np.zeros(len(population.position))
+    held = prescribe(case, population, pressure)
     pull = _pull(case, population.position)
     for s in sets:
         law = case.materials[laws[s.row[0]]]
@@ -23,19 +24,19 @@ def saturate(case, sets, population, laws):
         s.pull = None if pull is None else pull[s.row]
 
 
-def _pressure(case, population):
-    """Return the pore pressures (n,) [Pa] and which (n,) are prescribed.
+def prescribe(case, population, pressure):
+    """Set the pore pressures (n,) [Pa] that loads say; return which (n,) are prescribed.
 
     Of several the last one counts, in the order of the list of loads.
     """
     position, material = population.position, population.material
-    pressure, held = np.zeros(len(position)), np.zeros(len(position), bool)
+    held = np.zeros(len(position), bool)
     for load in case.acting("wets"):
         wet = load.wets(position, material)
         pressure[wet] = load.pressure
         if load.is_kept:
             held |= wet
-    return pressure, held
+    return held
 
 
 def _pull(case, position):

@@ -9,6 +9,7 @@ from mpmgeo.case.building.limits import limits
 from mpmgeo.case.building.locking import locking
 from mpmgeo.case.building.overlap import overlaps
 from mpmgeo.case.building.proportions import out_of_proportion
+from mpmgeo.case.building.rest import unlikely_rest
 from mpmgeo.case.coordinates import in_mesh
 from mpmgeo.case.spec import ACTIONS
 from mpmgeo.positions import shown
@@ -46,6 +47,7 @@ def lint(simulation) -> list[str]:
         *limits(case),
         *locking(case, position, partial(simulation.field, "material")),
         *out_of_proportion(case, position, body, simulation.time_step),
+        *unlikely_rest(case, simulation),
         *overlaps(case, position, body, partial(simulation.field, "mass")),
     ]
 

@@ -10,6 +10,7 @@ from mpmgeo.mpm.plane_strain import (
     Across,
     Columns,
     PlaneStrain,
+    are_same,
     seen_in_plane,
     to_layer,
 )
@@ -129,7 +130,7 @@ def _check_set(s, columns):
     if (at < 0).any():
         raise Obstacle("layers are of different materials")
     for name, values in s.arrays().items():
-        if name not in ("row", "x") and not np.array_equal(values, values[at]):
+        if name not in ("row", "x") and not are_same(values, values[at]):
             raise Obstacle(f"particles begin with different values across ({name})")
     if s.v[:, columns.axis].any():
         raise Obstacle("particles begin with a velocity across")

@@ -8,11 +8,14 @@ from mpmgeo.positions import mean_edge, shown
 def bind_pressure(case, position, notes):
     """Return the pore pressures (n,) [Pa] of particles at `position` (n, 3) [m], None without.
 
-    Points and particles that find no partner are counted in `notes`.
+    Points and particles that find no partner are counted in `notes`. A water table makes room for
+    the pressures of `initial_stress.py`.
     """
     coupling = case.hydro_mechanical_coupling
     if coupling is None or not coupling.enabled:
-        return None
+        start = case.initial_stress
+        floods = start is not None and start.water_table is not None and case.n_phases == 1
+        return np.zeros(len(position)) if floods else None
     cell = mean_edge(case.mesh.cells_dimension)
     found = coupling.pressures(position, cell, last=case.compatibility is not None)
     idle = np.flatnonzero(~found.matched)

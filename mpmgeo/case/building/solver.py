@@ -5,10 +5,11 @@ import numpy as np
 from mpmgeo.boundaries.planes import Planes
 from mpmgeo.case.building.fluid import pore_fluid, saturate
 from mpmgeo.case.building.in_time import in_time
+from mpmgeo.case.building.initial_stress import begin
 from mpmgeo.case.building.motions import base, bind_tools
 from mpmgeo.case.building.plane_strain import in_plane_strain
 from mpmgeo.case.building.population import populate
-from mpmgeo.case.building.sets import load_stress, particle_sets
+from mpmgeo.case.building.sets import particle_sets
 from mpmgeo.case.building.terrain import bind_terrain
 from mpmgeo.case.building.time_step import time_step
 from mpmgeo.case.coordinates import in_mesh
@@ -24,9 +25,10 @@ from mpmgeo.state.grid import Grid, Mesh
 TOUCH = 1e-12  # cells by which a particle must reach over a node; less is round-off
 
 
-def build(case, body_force=None):
+def build(case, body_force=None, starts=True):
     """Return the solver of a case and notes for the user, one sentence each.
 
+    `starts`: whether it has the stresses of the start; a run that goes on has its own.
     `body_force`: None, or a function (t, X) that returns accelerations, see `effects.body_force`.
     Raises ValueError for a record or geometry that cannot be used.
     """
@@ -37,13 +39,13 @@ def build(case, body_force=None):
     legacy = case.compatibility is not None
     name = case.shape_function
     shape = AS_MPM_GEOMECHANICS[name] if legacy else shape_of(name, case)
-    tool = bind_tools(case, population, velocity)[1]
+    tools, tool = bind_tools(case, population, velocity)
     contact = bind_terrain(case, mesh, shape.width, population, notes)
     sets = particle_sets(case, population, velocity, law, tool, contact, notes)
     if case.n_phases == 2:
         saturate(case, sets, population, law)
-    if case.load_state:
-        load_stress(case, sets, len(population.position))
+    if starts:
+        begin(case, sets, population, law, tools, notes)
     lightest = min((float(s.m.min()) for s in sets), default=0.0)
     cutoff = 0.0 if legacy else TOUCH**shape.edge * lightest
     damping, early = _damping(case)

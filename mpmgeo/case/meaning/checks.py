@@ -12,6 +12,7 @@ from mpmgeo.case.meaning.domains import check_domains
 from mpmgeo.case.meaning.phases import check_phases, note_idle
 from mpmgeo.case.meaning.schemes import check_schemes
 from mpmgeo.case.meaning.slips import warn_of_slips
+from mpmgeo.case.meaning.start import check_start
 from mpmgeo.case.meaning.steps import check_steps
 from mpmgeo.case.meaning.transfers import check_transfers
 from mpmgeo.case.spec import ACTIONS, Case
@@ -33,6 +34,7 @@ def check(draft, report):
     check_domains(draft, report)
     check_deformation(draft, report)
     check_transfers(draft, report)
+    check_start(draft, report)
     _check_files(draft, report)
     _check_names(draft, report)
     _check_base(draft, report)

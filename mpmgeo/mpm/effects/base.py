@@ -27,6 +27,10 @@ class Base(Effect):
         if self.motion.ended:
             solver.bound(self.motion.planes_after(solver.planes))
 
+    def restarted(self, solver):
+        """Follow the record from its beginning."""
+        self.take({"velocity": [0.0, 0.0, 0.0], "ended": False})
+
     def news(self, solver):
         """Tell when the record ends."""
         if self.motion.ended:

@@ -34,7 +34,6 @@ class BodyForce(Effect):
                 "let body_force say these"
             )
         population = solver.population
-        self.X = population.position + population.zero
         self.constant = 0.0 if population.force is None else population.force
         for s in solver.sets:
             s.force = np.zeros((len(s.row), 3)) if s.force is None else s.force
@@ -42,9 +41,12 @@ class BodyForce(Effect):
         self.resumed(solver)
 
     def resumed(self, solver):
-        """Take the forces of the solver's time."""
+        """Take the forces of the solver's time, of where particles began or were restarted."""
+        self.X = solver.population.position + solver.population.zero
         self._force = self._at(solver.load_time)
         self._give(solver)
+
+    restarted = resumed
 
     @DIVERGING
     def begin(self, solver, h):

@@ -109,6 +109,8 @@ class LoadsInTime(Effect):
         self.after_sort(solver)
         self._change(solver)
 
+    restarted = resumed
+
     def after_sort(self, solver):
         """The particles stand elsewhere."""
         for load in self.loads:

@@ -124,6 +124,10 @@ class Ledger(Effect):
         for s in self.solver.sets:
             s.work[:] = 0.0
 
+    def restarted(self, solver):
+        """Begin a new balance."""
+        self.restart()
+
     def row(self):
         """Return the figures of the last row; before the first step those of the start."""
         if self.solver.steps == 0:

@@ -113,6 +113,11 @@ class Tools(Effect):
 
     stopped = end
 
+    def restarted(self, solver):
+        """Give the particles the velocities of time 0."""
+        self.before[:] = self.after[:] = self._at(0.0)
+        self.end(solver)
+
     def keeping(self, walls):
         """Return the planes that particles do not pass: not those that move."""
         return self._with_planes(walls, False)

@@ -13,6 +13,7 @@ from mpmgeo.case.coordinates import in_mesh
 from mpmgeo.case.kinds import declared
 from mpmgeo.case.load import resolved
 from mpmgeo.case.spec import Case, Mesh
+from mpmgeo.parameters import HEIGHT
 
 ORIGIN = (500_000.0, 4_500_000.0, -3.0)
 EXTENTS = {(Mesh, "cells_dimension")}
@@ -33,13 +34,16 @@ def classes(cls, seen=None):
 
 
 def test_every_position_is_marked():
-    """Three lengths are a position, or a list of them is of positions; nothing else is."""
+    """Three lengths are a position, or a list of them is of positions; heights say so."""
     marked = 0
     for cls in classes(Case):
         for _, kind, field in declared(cls):
             vector = kind.item if kind.name == "list" else kind
             is_vector = vector.name == "fixed" and vector.length == 3
             is_place = is_vector and field.metadata["unit"] == "m"
+            if field.metadata["place"] == HEIGHT:
+                assert kind.name == "number" and field.metadata["unit"] == "m"
+                continue
             assert field.metadata["place"] == (is_place and (cls, field.name) not in EXTENTS)
             marked += field.metadata["place"]
     assert marked > 10
@@ -52,6 +56,16 @@ def case(**keys):
         for corner in ("point_p1", "point_p2"):
             body[corner] = (np.array(body[corner]) + ORIGIN).tolist()
     return mpmgeo.load_case(made)
+
+
+@pytest.mark.parametrize("gravity", [[-10, 0, 0], {"value": [-10, 0, 0]}])
+def test_a_height_moves_along_gravity(gravity):
+    user = case(gravity=gravity, initial_stress={"water_table": 500_001.5})
+    inside = in_mesh(user, user.mesh.origin)
+    assert inside.initial_stress.water_table == 1.5
+    back = in_mesh(inside, tuple(-o for o in ORIGIN))
+    assert back.initial_stress == user.initial_stress
+    assert in_mesh(inside, (0.0, 5.0, 5.0)).initial_stress is inside.initial_stress
 
 
 def test_positions_move_and_nothing_else():
