@@ -3,8 +3,8 @@
 python benchmarks/dyka_bar.py [--missing] [cells …]
 
 The errors of velocity and stress in the mean square at the end of the run, in 3D, one cell of
-cross-section, take their places in benchmarks/results/dyka_bar.csv; with --missing only those that it
-lacks.
+cross-section, take their places in benchmarks/results/dyka_bar.csv; with --missing those that
+it lacks.
 """
 
 import argparse

@@ -110,7 +110,7 @@ class Simulation:
         arrays, facts = snapshot_of(self.solver)
         facts |= {"told": sorted(self._told), "changes": self.changes, **self._case_facts}
         facts["body_force"] = self.body_force is not None
-        facts["plane_strain"] = getattr(self.solver, "is_plane", False)
+        facts["across"] = getattr(self.solver, "across", None)
         with whole_file(path) as file:
             write_snapshot(file, Snapshot(arrays, facts))
         self.snapshot = path

@@ -117,17 +117,17 @@ def take_up(solver, snapshot, body_force) -> None:
     from mpmgeo.case.building.solver import build
     from mpmgeo.mpm.persistence import state_of, take_over, take_snapshot
 
-    if not snapshot.facts.get("plane_strain") or hasattr(solver, "unfold"):
+    across = snapshot.facts.get("across")
+    if across is None or across == getattr(solver, "across", None):
         take_snapshot(solver, snapshot)
-        if hasattr(solver, "fold"):
-            solver.fold()
-        return
-    case = replace(load_case(snapshot.facts["case"]), plane_strain="auto")
-    of_layer, _ = build(case, body_force, starts=False)
-    take_snapshot(of_layer, snapshot)
-    of_layer.unfold()
-    of_layer.arrange()
-    take_over(solver, state_of(of_layer.acting))
+    else:
+        case = replace(load_case(snapshot.facts["case"]), plane_strain="auto")
+        of_layer, _ = build(case, body_force, starts=False)
+        take_snapshot(of_layer, snapshot)
+        of_layer.unfold()
+        take_over(solver, state_of(of_layer.acting))
+    if hasattr(solver, "fold"):
+        solver.fold()
 
 
 def record_of(simulation, changed) -> list:

@@ -120,6 +120,11 @@ class PlaneStrain:
         return self.acting is self.plane
 
     @property
+    def across(self):
+        """The axis along which nothing changes, None once the whole is solved."""
+        return self.columns.axis if self.is_plane else None
+
+    @property
     def count(self):
         """Number of all particles."""
         return self.whole.count
@@ -282,6 +287,7 @@ class PlaneStrain:
         new.time, new.steps, new.peak_energy = old.time, old.steps, old.peak_energy
         new.population, new.moved_origin = old.population, old.moved_origin
         new.clock, new.gone, self.acting = old.clock, sum(len(s.row) for s in new.sets), new
+        new.arrange()
         for resumed in new.asked["resumed"]:
             resumed(new)
 
