@@ -1,7 +1,7 @@
 """The time loop: it knows no physics."""
 
 from mpmgeo.run.interrupt import Interrupt
-from mpmgeo.run.watch import StopRun, Watcher
+from mpmgeo.run.watch import StopRun, Watcher, has_come_to
 
 NOBODY = Watcher()
 """Hears what a watcher has no method for."""
@@ -22,7 +22,9 @@ def run(simulation, until, watchers):
             for watcher in watchers:
                 begun.append(watcher)
                 _tell([watcher], "begin", simulation)
-            while simulation.time < until and not interrupt.asked and simulation.stopped is None:
+            while not (
+                has_come_to(simulation, until) or interrupt.asked or simulation.stopped is not None
+            ):
                 simulation.advance()
                 _tell(watchers, "after_step", simulation)
         except BaseException as caught:

@@ -14,7 +14,7 @@ class Checked:
 
     def __init__(self, fails_in=None):
         self.case = SimpleNamespace(time=1e9)
-        self.steps, self.time, self.fails_in = 0, 0.0, fails_in
+        self.steps, self.time, self.time_step, self.fails_in = 0, 0.0, 1.0, fails_in
         self.checked, self.kept, self.restored = [], [], 0
 
     def check(self):
