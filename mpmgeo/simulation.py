@@ -27,6 +27,7 @@ from mpmgeo.output.particle_fields import particle_field, particle_field_names
 from mpmgeo.run.diagnosis import diagnose, last_stress
 from mpmgeo.run.loop import run
 from mpmgeo.run.losses import Losses
+from mpmgeo.run.rest import rest_of
 from mpmgeo.run.snapshots import Snapshots
 from mpmgeo.run.surplus import Surplus
 from mpmgeo.run.watch import Diverged, Guard
@@ -137,11 +138,12 @@ class Simulation:
 
         Raises Diverged when particles become NaN, infinite or too fast; the state is then the last
         sound one. The first Ctrl-C ends the run after a whole step and sets `interrupted`; StopRun,
-        raised by a watcher, ends it too and sets `stopped` to its reason. Raises OSError if files
-        cannot be written, or if another run writes into the output folder.
+        raised by a watcher, or a state of rest ends it too and sets `stopped` to the reason. Raises
+        OSError if files cannot be written, or if another run writes into the output folder.
         """
         every = self.output_interval
-        watchers = [Guard(every), Surplus(every), *self._files(every), Losses(), *watchers]
+        ends = [*rest_of(self), Losses()]
+        watchers = [Guard(every), Surplus(every), *self._files(every), *ends, *watchers]
         try:
             with claimed(self.output, self.case.title):
                 run(self, self.case.time if until is None else until, watchers)

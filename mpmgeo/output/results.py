@@ -66,7 +66,8 @@ class ResultFiles:
 
     def end(self, simulation, error):
         """Write the last state of a run that did not come to its end."""
-        if (error or simulation.interrupted) and self.written != simulation.steps:
+        is_cut_short = simulation.interrupted or simulation.stopped is not None
+        if (error or is_cut_short) and self.written != simulation.steps:
             self._write(simulation)
 
     def _write(self, simulation, first=False):

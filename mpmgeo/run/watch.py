@@ -5,7 +5,7 @@ EVERY = 50  # steps between checks
 ROUND_OFF = 0.01
 """Share of a step by which a sum of steps may fall short of the time that it stands for.
 
-The sum of n steps of T/n is off by n²/10¹⁶ steps at most: ten million steps may be a hundredth short.
+The sum of n steps of T/n is off by n²/10¹⁶ steps at most: a hundredth after ten million.
 """
 
 

@@ -5,6 +5,7 @@ from mpmgeo.case.building.fluid import pore_fluid, saturate
 from mpmgeo.case.building.in_time import in_time
 from mpmgeo.case.building.motions import base, bind_tools
 from mpmgeo.case.building.population import populate
+from mpmgeo.case.building.rest import equilibrium
 from mpmgeo.case.building.sets import load_stress, particle_sets
 from mpmgeo.case.building.terrain import bind_terrain
 from mpmgeo.case.building.time_step import time_step
@@ -50,6 +51,7 @@ def build(case, body_force=None):
         *_of_loads(case, mesh),
         _reactions(case),
         *(_of_damping(kind, legacy) for kind in case.dampings),
+        equilibrium(case),
         _domains(case),
         _ledger(case),
         in_time(case, population.position),
