@@ -7,6 +7,7 @@ from pathlib import Path
 import numba
 
 from mpmgeo.case.building.lint import lint
+from mpmgeo.case.building.outputs import outputs_of, steps_between_outputs
 from mpmgeo.case.building.solver import build
 from mpmgeo.case.building.time_step import critical_time_step, stable_time_step
 from mpmgeo.case.coordinates import in_mesh
@@ -141,9 +142,8 @@ class Simulation:
         raised by a watcher, or a state of rest ends it too and sets `stopped` to the reason. Raises
         OSError if files cannot be written, or if another run writes into the output folder.
         """
-        every = self.output_interval
-        ends = [*rest_of(self), Losses()]
-        watchers = [Guard(every), Surplus(every), *self._files(every), *ends, *watchers]
+        at = outputs_of(self.case, self.time_step)
+        watchers = [Guard(at), Surplus(at), *self._files(at), *rest_of(self), Losses(), *watchers]
         try:
             with claimed(self.output, self.case.title):
                 run(self, self.case.time if until is None else until, watchers)
@@ -151,14 +151,14 @@ class Simulation:
             self.goes_on = True
         return self
 
-    def _files(self, every):
+    def _files(self, outputs):
         if self.output is None:
             return []
         from mpmgeo.output.results import ResultFiles
 
-        files = [ResultFiles(self.output, self.case, every)]
+        files = [ResultFiles(self.output, self.case, outputs)]
         if self._histories:
-            files.append(Histories(self._histories, every))
+            files.append(Histories(self._histories, outputs))
         if self.case.save_state:
             files.append(FinalStress(self.output))
         if self.case.snapshot is not None:
@@ -236,10 +236,8 @@ class Simulation:
 
     @property
     def output_interval(self):
-        """Steps between two outputs."""
-        wanted = self.case.results.print
-        steps = int(self.case.time / self.time_step)
-        return max(1, steps // wanted) if wanted > 0 else 1
+        """Steps between two outputs, if all steps are of the same length."""
+        return steps_between_outputs(self.case, self.time_step)
 
     def kinetic_energy(self):
         """Return the kinetic energy [J]."""

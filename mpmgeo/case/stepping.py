@@ -5,6 +5,8 @@ from dataclasses import dataclass
 
 from mpmgeo.parameters import parameter
 
+ADAPTIVE = "adaptive"
+
 
 @dataclass(frozen=True)
 class Rest:
@@ -31,7 +33,12 @@ class Stepping:
     """How long the steps are, and when there are enough of them."""
 
     time_step: float | None = parameter(
-        "Time step; absent or 0: chosen from the critical one", unit="s", minimum=0, default=None
+        "Time step; absent or 0: chosen from the critical one at the start; adaptive: from that of "
+        "the speeds as they are",
+        unit="s",
+        minimum=0,
+        words=(ADAPTIVE,),
+        default=None,
     )
     critical_time_step_multiplier: float = parameter(
         "Share of the critical time step to use when none is given", above=0, default=0.25
@@ -39,3 +46,8 @@ class Stepping:
     until: Rest | None = parameter(
         "State of rest at which the run ends, before its time; absent: none", default=None
     )
+
+    @property
+    def is_adaptive(self) -> bool:
+        """Return whether the steps follow from the speeds."""
+        return self.time_step == ADAPTIVE

@@ -15,7 +15,6 @@ from mpmgeo.mpm.incidents import Departures, Unsound
 from mpmgeo.mpm.locking import CellMeans
 from mpmgeo.mpm.newmark import Newmark
 from mpmgeo.mpm.persistence import copy_of, state_of, take_over
-from mpmgeo.mpm.schemes import first_step
 from mpmgeo.mpm.stages import Stages
 from mpmgeo.mpm.tally import tally
 from mpmgeo.mpm.task import OnePhase
@@ -65,13 +64,14 @@ class Solver(Stages):
         self.reactions = None  # (6 + tools, 3) [N] of planes and tools when last measured
         self.ledger = None  # of energy, if it is asked for
         self.peak_energy = None  # before the particles were stopped in the last step, if they were
+        self.previous = 0.0  # the step before [s]; while effects end a step, that one
         self.gone = self.count  # how many particles are not where the order says
         self.motion = STILL  # of a plane that moves
         self.driven = None, ()  # model and arrays of nodes whose velocity is prescribed
         self.nodal = OnePhase()
         for s in self.sets:
             s.lie_in(self.grid)
-            if isinstance(self.scheme, Newmark) and s.a is None:
+            if self.is_whole and s.a is None:
                 s.a = np.zeros_like(s.v)
         self.asked = {
             hook: [getattr(effect, hook) for effect in self.effects if effect.overrides(hook)]
@@ -99,9 +99,14 @@ class Solver(Stages):
         return self.effect("ground")
 
     @property
+    def is_whole(self) -> bool:
+        """Return whether velocities are of the times of positions, not half a step behind."""
+        return isinstance(self.scheme, Newmark)
+
+    @property
     def load_time(self) -> float:
         """Return of which time the loads of the next step are [s]: with Newmark's its end."""
-        return self.time + (self.time_step if isinstance(self.scheme, Newmark) else 0.0)
+        return self.time + (self.time_step if self.is_whole else 0.0)
 
     def news(self):
         """Yield (topic, messages) for what the user should be told of, `messages` a function."""
@@ -126,8 +131,12 @@ class Solver(Stages):
             self._sort(judge=False)
 
     def step(self):
-        """Advance by one time step; the first may change velocities by less (`first_step`)."""
-        h = self.time_step * (first_step(self.scheme) if self.steps == 0 else 1.0)
+        """Advance by one time step.
+
+        Velocities change over h, from the middle of the step before to that of this one, or, in
+        Newmark's method, over the step; there is no step before the first.
+        """
+        h = self.time_step if self.is_whole else 0.5 * (self.previous + self.time_step)
         self.clock.begin()
         if self.gone:
             self._sort()
@@ -137,6 +146,7 @@ class Solver(Stages):
         self.scheme(self, h)
         self.steps += 1
         self.time += self.time_step
+        self.previous = self.time_step
         for end in self.asked["end"]:
             end(self)
 
@@ -167,11 +177,25 @@ class Solver(Stages):
         here = self.tally()
         if self.ledger is not None:
             return self.ledger.energies(here.within)
-        lag = 0.5 * self.time_step if self.steps else 0.0
-        potential = float((here.potential - lag * here.power).sum())
+        lag = 0.5 * self.previous
+        potential = float((here.potential - lag * here.power).sum()) - self._sag()
         potential += float(self.tally(left=True).potential.sum())
         held = float((here.kinetic + here.strain).sum())
         return Energies(held - potential, here.within, 0.0, held + abs(potential))
+
+    def _sag(self):
+        """Return by how much the work of constant forces is too large at the mean of two positions.
+
+        A path of the acceleration f/m sags by f/m h²/8: it matters where steps change.
+        """
+        if self.effect("time step") is None:
+            return 0.0
+        squares = 0.0
+        for s in self.sets:
+            f = s.m[: s.active, None] * np.array(self.gravity)
+            f = f if s.force is None else f + s.force[: s.active]
+            squares += float(((f * f).sum(axis=1) / s.m[: s.active]).sum())
+        return 0.125 * self.previous**2 * squares
 
     def check(self):
         """Raise Unsound if a particle is NaN, infinite or would cross a cell in a step."""
@@ -244,6 +268,7 @@ class Solver(Stages):
         if (peak := state.pop("peak_energy")) is not None:
             peak = number_from({"peak_energy": peak}, "peak_energy")
         self.peak_energy = peak
+        self.previous = self.time_step if self.steps else 0.0
         blocks = len(self.grid.keys)
         for s in self.sets:
             unsorted = blocks == 0 and (self.gone > 0 or s.active == 0)

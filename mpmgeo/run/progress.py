@@ -172,6 +172,7 @@ class Progress(Watcher):
 def about_step(simulation):
     """Return the time step beside those that it may be compared with."""
     stable, step = simulation.stable_time_step, f"time step {simulation.time_step:.4g} s"
+    step += " at the start, adaptive" if simulation.case.is_adaptive else ""
     if stable == inf:  # no particles
         return step
     limit = f"stable up to {stable:.4g} s" if stable else "no step is stable"

@@ -39,15 +39,15 @@ def has_come_to(simulation, time) -> bool:
 
 
 def is_due(simulation, outputs) -> bool:
-    """Tell whether the state is to be checked, `outputs` being the steps between outputs."""
-    due = simulation.steps % EVERY == 0 or simulation.steps % outputs == 0
+    """Tell whether the state is to be checked, which is before all `outputs`, too."""
+    due = simulation.steps % EVERY == 0 or outputs.are_due(simulation)
     return due or has_come_to(simulation, simulation.case.time)
 
 
 class Guard(Watcher):
     """Checks before every output and every `EVERY` steps; goes back to the last sound state.
 
-    `outputs`: steps between outputs.
+    `outputs`: when they are, see `run.outputs`.
     """
 
     def __init__(self, outputs):

@@ -16,7 +16,7 @@ FILE = pytest.mark.parametrize("path", FILES, ids=[str(f.relative_to(PACKAGE)) f
 
 # Each part of the package imports only from the rows above its own.
 LEVELS = (
-    {"parameters", "numerics", "naming", "values", "positions", "effect"},
+    {"parameters", "numerics", "naming", "values", "positions", "instants", "effect"},
     {"region", "listed", "action", "formulation"},
     {"state"},
     {"shapes", "materials", "bodies", "boundaries", "loads", "damping", "transfers", "output"},

@@ -4,6 +4,8 @@ from mpmgeo.boundaries.planes import Planes
 from mpmgeo.case.building.fluid import pore_fluid, saturate
 from mpmgeo.case.building.in_time import in_time
 from mpmgeo.case.building.motions import base, bind_tools
+from mpmgeo.case.building.outputs import instants_of
+from mpmgeo.case.building.pace import pace
 from mpmgeo.case.building.population import populate
 from mpmgeo.case.building.rest import equilibrium
 from mpmgeo.case.building.sets import load_stress, particle_sets
@@ -44,6 +46,7 @@ def build(case, body_force=None):
         load_stress(case, sets, len(population.position))
     lightest = min((float(s.m.min()) for s in sets), default=0.0)
     effects = (
+        pace(case, instants_of(case)),
         base(case, notes),
         tools,
         pore_fluid(case),

@@ -9,6 +9,9 @@ from mpmgeo.mpm import stability
 from mpmgeo.mpm.schemes import is_filtered, longest
 from mpmgeo.positions import mean_edge
 
+MARGIN = 0.9
+"""Share of the stable time step that is proposed, and up to which steps follow speeds."""
+
 
 def critical_time_step(case, velocity):
     """Return the time [s] in which a wave crosses a cell, particles moving at `velocity` (n, 3).
@@ -39,20 +42,33 @@ def stable_time_step(case, solver, velocity):
     It knows scheme, shape, sizes of particles, edges of cells, materials and phases; 0 if there is
     no such step, infinite without particles. It shrinks with speed as the critical one does.
     """
-    filtered, speed = is_filtered(solver.scheme), _fastest(velocity)
+    speed = _fastest(velocity)
+    steps = (step * wave / (wave + speed) for step, wave in stable_steps_at_rest(case, solver))
+    return min(steps, default=inf)
+
+
+def stable_steps_at_rest(case, solver):
+    """Return for each set of particles the longest step [s] at rest, and its wave speed [m/s]."""
+    filtered = is_filtered(solver.scheme)
     averaged = filtered and not case.transfer.is_affine
-    if not stability.has_stable_step(solver.shape, filtered):
-        return 0.0
-    laws = {law.id: law for law in reversed(case.materials)}
-    steps = [inf]
+    found = []
     for s in solver.sets:
-        law, half = laws[solver.population.material[s.row[0]]], np.atleast_2d(s.half).min(axis=0)
-        slopes = stability.slopes(solver.shape, averaged, half, case.mesh.cells_dimension)
+        law, half = law_of(case, solver, s), np.atleast_2d(s.half).min(axis=0)
         two = case.n_phases == 2
         wave = saturation.wave_speed(law) if two else law.sound_speed()
+        if not stability.has_stable_step(solver.shape, filtered):
+            found.append((0.0, wave))
+            continue
+        slopes = stability.slopes(solver.shape, averaged, half, case.mesh.cells_dimension)
         step = (_of_two_phases if two else _of_one_phase)(case, law, slopes, longest(solver.scheme))
-        steps.append(step * wave / (wave + speed))
-    return min(steps)
+        found.append((step, wave))
+    return found
+
+
+def law_of(case, solver, s):
+    """Return the law of the particles of a set."""
+    number = solver.population.material[s.row[0]]
+    return next(law for law in case.materials if law.id == number)
 
 
 def _of_one_phase(case, law, slopes, n):
@@ -73,6 +89,6 @@ def _of_two_phases(case, law, slopes, n):
 
 def time_step(case, velocity):
     """Return the time step of a case [s]: as given, or a share of the critical one."""
-    if case.time_step:
+    if case.time_step and not case.is_adaptive:
         return case.time_step
     return case.critical_time_step_multiplier * critical_time_step(case, velocity)

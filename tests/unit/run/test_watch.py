@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from assembly import simulate, two_blocks
 
+from mpmgeo.run.outputs import EverySteps
 from mpmgeo.run.watch import EVERY, Diverged, Guard
 
 
@@ -30,7 +31,7 @@ class Checked:
 
 
 def watch(simulation, outputs, steps):
-    guard = Guard(outputs)
+    guard = Guard(EverySteps(outputs))
     guard.begin(simulation)
     error = None
     try:
@@ -69,7 +70,7 @@ def test_what_fails_the_check_is_not_kept():
 
 def test_other_errors_keep_the_state():
     simulation = Checked()
-    guard = Guard(10)
+    guard = Guard(EverySteps(10))
     guard.begin(simulation)
     guard.end(simulation, OSError())
     assert not simulation.restored
