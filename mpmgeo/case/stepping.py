@@ -43,6 +43,12 @@ class Stepping:
     critical_time_step_multiplier: float = parameter(
         "Share of the critical time step to use when none is given", above=0, default=0.25
     )
+    density_scaling: float = parameter(
+        "Factor of the inertia, not of weight and loads, for longer steps on the way to rest; "
+        "with local or kinetic damping",
+        minimum=1,
+        default=1.0,
+    )
     until: Rest | None = parameter(
         "State of rest at which the run ends, before its time; absent: none", default=None
     )

@@ -51,6 +51,7 @@ class Solver(Stages):
     transfer: object = None  # how velocities go to particles; None: FLIP
     leaky: bool = False  # whether particles may pass planes that hold, as in MPM-Geomechanics
     cutoff: float = 0.0  # [kg] nodal mass up to which forces do not move a node
+    scaling: float = 1.0  # factor of the inertia, not of weight and loads; not for Newmark's
     cells: CellMeans | None = None  # of strain and stress, if the particles of a cell share them
 
     time: float = 0.0
@@ -134,9 +135,11 @@ class Solver(Stages):
         """Advance by one time step.
 
         Velocities change over h, from the middle of the step before to that of this one, or, in
-        Newmark's method, over the step; there is no step before the first.
+        Newmark's method, over the step; there is no step before the first. What has more inertia
+        changes its velocity as if h were shorter.
         """
         h = self.time_step if self.is_whole else 0.5 * (self.previous + self.time_step)
+        h /= self.scaling
         self.clock.begin()
         if self.gone:
             self._sort()
@@ -170,6 +173,8 @@ class Solver(Stages):
 
         Positions and volumes are taken back by half a step, to where the velocities are.
         """
+        if self.scaling != 1.0:
+            return None
         works = any(effect.does_work for effect in self.effects)
         works = works or any(opens_under_pressure(s) for s in self.sets)
         if self.ledger is None and (works or not all(stores_energy(s.law) for s in self.sets)):

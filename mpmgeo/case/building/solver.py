@@ -10,7 +10,7 @@ from mpmgeo.case.building.population import populate
 from mpmgeo.case.building.rest import equilibrium
 from mpmgeo.case.building.sets import load_stress, particle_sets
 from mpmgeo.case.building.terrain import bind_terrain
-from mpmgeo.case.building.time_step import time_step
+from mpmgeo.case.building.time_step import on_scaling, time_step
 from mpmgeo.case.coordinates import in_mesh
 from mpmgeo.damping import LocalDamping
 from mpmgeo.loads import LOADS
@@ -45,6 +45,7 @@ def build(case, body_force=None):
     if case.load_state:
         load_stress(case, sets, len(population.position))
     lightest = min((float(s.m.min()) for s in sets), default=0.0)
+    notes += on_scaling(case, velocity)
     effects = (
         pace(case, instants_of(case)),
         base(case, notes),
@@ -75,6 +76,7 @@ def build(case, body_force=None):
         transfer=case.transfer.symbols,
         leaky=legacy,
         cutoff=0.0 if legacy else TOUCH**shape.edge * lightest,
+        scaling=case.density_scaling,
         cells=CellMeans() if case.volumetric_locking == "cells" else None,
     )
     return solver, notes

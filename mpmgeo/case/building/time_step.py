@@ -1,5 +1,6 @@
 """The time step of a case."""
 
+from dataclasses import replace
 from math import inf
 
 import numpy as np
@@ -24,7 +25,7 @@ def critical_time_step(case, velocity):
         return mean_edge(cell) / max(law.sound_speed() for law in case.materials)
     used = {number for body in case.body if body.active for number in body.materials}
     fastest = _fastest(velocity)
-    laws = [law for law in case.materials if law.id in used]
+    laws = [inertial(law, case) for law in case.materials if law.id in used]
     if case.n_phases == 1:
         return min((law.critical_time_step(min(cell), fastest) for law in laws), default=inf)
     steps = (saturation.critical_time_step(law, min(cell), fastest) for law in laws)
@@ -66,9 +67,14 @@ def stable_steps_at_rest(case, solver):
 
 
 def law_of(case, solver, s):
-    """Return the law of the particles of a set."""
+    """Return the law of the particles of a set, with the inertia that they have in a case."""
     number = solver.population.material[s.row[0]]
-    return next(law for law in case.materials if law.id == number)
+    return inertial(next(law for law in case.materials if law.id == number), case)
+
+
+def inertial(law, case):
+    """Return a law with the density that stands for its inertia."""
+    return replace(law, density=case.density_scaling * law.density)
 
 
 def _of_one_phase(case, law, slopes, n):
@@ -92,3 +98,14 @@ def time_step(case, velocity):
     if case.time_step and not case.is_adaptive:
         return case.time_step
     return case.critical_time_step_multiplier * critical_time_step(case, velocity)
+
+
+def on_scaling(case, velocity):
+    """Yield what to tell of the inertia of a case, if it is scaled."""
+    if case.density_scaling != 1.0:
+        real = replace(case, density_scaling=1.0)
+        longer = critical_time_step(case, velocity) / critical_time_step(real, velocity)
+        yield (
+            f"density_scaling: steps may be {longer:.3g} times as long as with the real inertia; "
+            "only the state of rest has a meaning, times and velocities on the way have none"
+        )

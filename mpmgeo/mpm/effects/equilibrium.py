@@ -5,7 +5,9 @@
 
 f_n: resultant at a node, without what planes hold and before damping; N: number of nodes with mass;
 w: weight and load of a particle, which pulls with V |σ e_a|/h_a at the nodes on either side of it;
-P: loads on nodes. Pore pressures that are given count in σ, and in W with p (V − V₀).
+P: loads on nodes; E: kinetic energy of the nodes, of their inertia, which may be scaled. Given pore
+pressures count in σ, and in W with p (V − V₀). Velocities of particles that cancel at the nodes
+move nothing; kinetic damping, which stops them, looks at all of them, and so does E with it.
 
 All of it passes through zero in a vibration: forces in its middle, speeds at its ends. So a figure
 is the largest of the last `LOOKS`. Between the stops of kinetic damping the energy grows from
@@ -77,19 +79,19 @@ class Equilibrium(Effect):
     def after_nodes(self, solver, h):
         """Count the work of loads on nodes."""
         if KINETIC in self.wanted and (loads := solver.effect("point loads")) is not None:
-            self.sums["done"] += loads.work(solver, h)
+            self.sums["done"] += solver.scaling * loads.work(solver, h)
 
     def stopped(self, solver):
         """Note at which energy damping has stopped the particles."""
-        self.sums["peak"] = solver.peak_energy
+        self.sums["peak"] = solver.scaling * solver.peak_energy
 
     def end(self, solver):
         """Look at the figures if a look is due."""
         due, sums = solver.steps % self.every == 0, self.sums
         if KINETIC in self.wanted and (due or solver.peak_energy is not None):
             energy = solver.peak_energy
-            energy = solver.kinetic_energy() if energy is None else energy
-            sums["largest"] = max(sums["largest"], energy)
+            energy = _energy_of_nodes(solver) if energy is None else energy
+            sums["largest"] = max(sums["largest"], solver.scaling * energy)
         if not due:
             return
         figures = {UNBALANCED: self._unbalanced, KINETIC: np.inf}
@@ -117,6 +119,13 @@ class Equilibrium(Effect):
 def _work(solver):
     """Return the work [J] of forces on particles from the zero of coordinates."""
     return float(solver.tally().potential.sum() + solver.tally(left=True).potential.sum())
+
+
+def _energy_of_nodes(solver):
+    """Return the kinetic energy [J] of the nodes with their last velocities."""
+    of_node = solver.grid.solid.at_nodes
+    v = of_node("velocity")
+    return 0.5 * float((of_node("mass") * (v * v).sum(axis=1)).sum())
 
 
 def _unbalanced(solver):
