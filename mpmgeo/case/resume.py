@@ -3,7 +3,7 @@
 from mpmgeo.case.load import load_case, resolved
 from mpmgeo.case.meaning.fingerprint import FREE, differences, fingerprint, leaves
 from mpmgeo.case.report import nearest
-from mpmgeo.run.watch import has_come_to
+from mpmgeo.instants import has_come_to
 
 MOST_DIFFERENCES = 5
 """Differences that a message names."""

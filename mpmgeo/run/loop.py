@@ -1,7 +1,8 @@
 """The time loop: it knows no physics."""
 
+from mpmgeo.instants import has_come_to
 from mpmgeo.run.interrupt import Interrupt
-from mpmgeo.run.watch import StopRun, Watcher, has_come_to
+from mpmgeo.run.watch import StopRun, Watcher
 
 NOBODY = Watcher()
 """Hears what a watcher has no method for."""

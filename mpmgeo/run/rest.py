@@ -2,7 +2,8 @@
 
 from math import isfinite
 
-from mpmgeo.run.watch import StopRun, Watcher, has_come_to
+from mpmgeo.instants import has_come_to
+from mpmgeo.run.watch import StopRun, Watcher
 
 
 class Rest(Watcher):

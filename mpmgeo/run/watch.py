@@ -1,12 +1,8 @@
 """Who watches a run: what watchers are told, how they stop it, and the guard, which is one."""
 
+from mpmgeo.instants import has_come_to
+
 EVERY = 50  # steps between checks
-
-ROUND_OFF = 0.01
-"""Share of a step by which a sum of steps may fall short of the time that it stands for.
-
-The sum of n steps of T/n is off by n²/10¹⁶ steps at most: a hundredth after ten million.
-"""
 
 
 class Watcher:
@@ -31,11 +27,6 @@ class StopRun(Exception):
 
 class Diverged(Exception):
     """A run whose particles became NaN, infinite or too fast; the message says where and why."""
-
-
-def has_come_to(simulation, time) -> bool:
-    """Tell whether a simulation has come to a time [s], but for round-off of the sum of steps."""
-    return simulation.time >= time - ROUND_OFF * simulation.time_step
 
 
 def is_due(simulation, outputs) -> bool:

@@ -32,7 +32,7 @@ LEVEL = {part: level for level, parts in enumerate(LEVELS) for part in parts}
 # Stricter than their rows: output shows what others computed, the loop knows no physics.
 ONLY = {
     "output": {"output", "naming", "numerics", "parameters", "positions", "region", "state"},
-    "run": {"run", "numerics", "parameters", "positions", "state"},
+    "run": {"run", "instants", "numerics", "parameters", "positions", "state"},
 }
 HEAVY = {"vtk", "vtkmodules", "pyvista", "meshio", "scipy", "jsonschema", "rich", "matplotlib"}
 MOST_LINES = 300
