@@ -2,8 +2,7 @@
 
 from mpmgeo.boundaries.terrain import TerrainContact
 from mpmgeo.loads import BaseAcceleration
-from mpmgeo.mpm.newmark import Newmark
-from mpmgeo.mpm.schemes import SCHEMES
+from mpmgeo.mpm import schemes
 from mpmgeo.values import shown
 
 SLOWING = ("local", "kinetic")
@@ -29,7 +28,7 @@ def _obstacles(draft):
     if case.get("n_phases") == 2:
         yield "the times of two phases are real ones; leave it out"
     scheme = case.get("stress_scheme_update")
-    if isinstance(SCHEMES.get(scheme), Newmark):
+    if isinstance(schemes.SCHEMES.get(scheme), schemes.Newmark):
         yield f'is not for {shown(scheme)}; accepted: "USL", "MUSL", "USF"'
     if draft.of(TerrainContact.key):
         yield f"what slides on a {TerrainContact.key} has its real inertia; leave one of them out"

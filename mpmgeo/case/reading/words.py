@@ -16,7 +16,6 @@ MEANINGS = {
     "density_scaling": ("massscaling", "inertiascaling", "scalemass"),
     "until": ("stop", "equilibrium", "convergence", "tolerance", "rest"),
     "unbalanced_force": ("ratio", "forceratio", "unbalanced", "outofbalance"),
-    "adaptive": ("auto", "automatic", "variable"),
     "gravity": ("g", "gravityvector", "bodyforce"),
     "mesh": ("grid", "domain", "background"),
     "body": ("geometry", "geometries", "objects", "particles", "parts"),
