@@ -14,6 +14,7 @@ from contest import Table
 from scenes import side_of, simulation, standing
 
 from mpmgeo.output.results import ResultFiles
+from mpmgeo.run.outputs import EverySteps
 
 STEPS, OUTPUTS = 1000, 10  # of the run in question
 FIELDS = ["displacement", "velocity", "stress"]
@@ -38,7 +39,7 @@ def main():
     block.threads = min(arguments.threads, numba.config.NUMBA_NUM_THREADS)
     steps, outputs = [], []
     with tempfile.TemporaryDirectory() as folder:
-        files = ResultFiles(Path(folder), block.case, every=1)
+        files = ResultFiles(Path(folder), block.case, EverySteps(1))
         block.step()
         first = seconds_of(lambda: files.begin(block))
         for _ in range(arguments.rounds):

@@ -14,6 +14,7 @@ from contest import Table
 from scenes import CELL, MARGIN, side_of, simulation, standing
 
 from mpmgeo.output.histories import Histories, histories_of
+from mpmgeo.run.outputs import EverySteps
 
 FIELDS = ["displacement", "velocity", "stress"]
 
@@ -48,7 +49,7 @@ def share(case, every, rounds):
     block = simulation(case)
     shares = []
     with tempfile.TemporaryDirectory() as folder:
-        histories = Histories(histories_of(block, Path(folder)), outputs=every)
+        histories = Histories(histories_of(block, Path(folder)), outputs=EverySteps(every))
         histories.begin(block)
 
         def seconds(steps):

@@ -20,6 +20,7 @@ from scenes import (
     standing,
 )
 
+from mpmgeo.run.outputs import EverySteps
 from mpmgeo.run.progress import peak_memory
 from mpmgeo.run.watch import Guard
 from mpmgeo.verify.plain import PlainSolver
@@ -105,7 +106,7 @@ def weigh(table, side):
     tracemalloc.start()
     begin, _ = tracemalloc.get_traced_memory()
     block = simulation(standing(side))
-    guard = Guard(outputs=10)
+    guard = Guard(EverySteps(10))
     guard.begin(block)
     tracemalloc.reset_peak()
     block.step()

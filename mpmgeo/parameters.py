@@ -27,6 +27,7 @@ def parameter(
     several=False,
     word=False,
     names=None,
+    words=(),
     last=False,
 ):
     """Return the dataclass field of one JSON key.
@@ -37,8 +38,9 @@ def parameter(
     position, or several, in the user's coordinates, HEIGHT the one on the axis of gravity; `key` is
     the JSON key where it is not the name of the field; `several`: a list of objects is accepted in
     the place of one; `word`: the word of its type is, if it says nothing else; `names`: the key of
-    the entries of the case whose names are accepted in the place of a number; `last`: the key comes
-    after those of the classes that inherit it. Without a `default` the key is required.
+    the entries of the case whose names are accepted in the place of a number; `words`: words that
+    are accepted in the place of one; `last`: the key comes after those of the classes that inherit
+    it. Without a `default` the key is required.
     """
     bounds = {"above": above, "minimum": minimum, "below": below, "maximum": maximum}
     metadata = {
@@ -52,6 +54,7 @@ def parameter(
         "several": several,
         "word": word,
         "names": names,
+        "words": words,
         "last": last,
     }
     return field(default=default, metadata=metadata, kw_only=True)

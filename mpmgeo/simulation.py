@@ -6,6 +6,7 @@ from pathlib import Path
 import numba
 
 from mpmgeo.case.building.lint import lint
+from mpmgeo.case.building.outputs import outputs_of, steps_between_outputs
 from mpmgeo.case.building.solver import build
 from mpmgeo.case.building.time_step import critical_time_step, stable_time_step
 from mpmgeo.case.coordinates import in_mesh
@@ -26,6 +27,7 @@ from mpmgeo.output.particle_fields import particle_field, particle_field_names
 from mpmgeo.run.diagnosis import diagnose, last_stress
 from mpmgeo.run.loop import run
 from mpmgeo.run.losses import Losses
+from mpmgeo.run.rest import rest_of
 from mpmgeo.run.snapshots import Snapshots
 from mpmgeo.run.surplus import Surplus
 from mpmgeo.run.watch import Diverged, Guard
@@ -138,11 +140,11 @@ class Simulation:
 
         Raises Diverged when particles become NaN, infinite or too fast; the state is then the last
         sound one. The first Ctrl-C ends the run after a whole step and sets `interrupted`; StopRun,
-        raised by a watcher, ends it too and sets `stopped` to its reason. Raises OSError if files
-        cannot be written, or if another run writes into the output folder.
+        raised by a watcher, or a state of rest ends it too and sets `stopped` to the reason. Raises
+        OSError if files cannot be written, or if another run writes into the output folder.
         """
-        every = self.output_interval
-        watchers = [Guard(every), Surplus(every), *self._files(every), Losses(), *watchers]
+        at = outputs_of(self.case, self.time_step)
+        watchers = [Guard(at), Surplus(at), *self._files(at), *rest_of(self), Losses(), *watchers]
         try:
             with claimed(self.output, self.case.title):
                 run(self, self.case.time if until is None else until, watchers)
@@ -150,14 +152,14 @@ class Simulation:
             self.goes_on = True
         return self
 
-    def _files(self, every):
+    def _files(self, outputs):
         if self.output is None:
             return []
         from mpmgeo.output.results import ResultFiles
 
-        files = [ResultFiles(self.output, self.case, every)]
+        files = [ResultFiles(self.output, self.case, outputs)]
         if self._histories:
-            files.append(Histories(self._histories, every))
+            files.append(Histories(self._histories, outputs))
         if self.case.save_state:
             files.append(FinalStress(self.output))
         if self.case.snapshot is not None:
@@ -235,10 +237,8 @@ class Simulation:
 
     @property
     def output_interval(self):
-        """Steps between two outputs."""
-        wanted = self.case.results.print
-        steps = int(self.case.time / self.time_step)
-        return max(1, steps // wanted) if wanted > 0 else 1
+        """Steps between two outputs, if all steps are of the same length."""
+        return steps_between_outputs(self.case, self.time_step)
 
     def kinetic_energy(self):
         """Return the kinetic energy [J]."""
@@ -288,8 +288,7 @@ class Simulation:
     def reactions(self):
         """Return the forces (3,) [N] on the material by plane, X0 … Zn, and prescribed velocity.
 
-        They are of the last step that a plane probe or prescribed velocity of the case measured;
-        empty before.
+        Of the last step that a plane probe or prescribed velocity measured; empty before.
         """
         if self.solver.reactions is None:
             return {}

@@ -5,6 +5,7 @@ from dataclasses import replace
 from mpmgeo.case.load import load_case, resolved
 from mpmgeo.case.meaning.fingerprint import FREE, differences, fingerprint, leaves
 from mpmgeo.case.report import nearest
+from mpmgeo.instants import has_come_to
 
 MOST_DIFFERENCES = 5
 """Differences that a message names."""
@@ -141,7 +142,7 @@ def remarks_on(simulation, changed):
     """Yield what to tell of a run that goes on: values that changed, or that it is at its end."""
     for key, (old, new) in changed.items():
         yield f"{key}: {new} from {simulation.time:.6g} s on, {old} before"
-    if simulation.time >= simulation.case.time:
+    if has_come_to(simulation, simulation.case.time):
         yield (
             f"the run is at its end already, {simulation.case.time:.6g} s; "
             "it goes on if a case says a later time"

@@ -15,6 +15,7 @@ from mpmgeo.boundaries.planes import BoundaryConditions
 from mpmgeo.boundaries.terrain import TerrainContact
 from mpmgeo.case.initial_stress import InitialStress
 from mpmgeo.case.method import Method
+from mpmgeo.case.stepping import Stepping
 from mpmgeo.damping import DAMPINGS, NoDamping
 from mpmgeo.loads import LOADS, Gravity
 from mpmgeo.materials import LAWS
@@ -44,6 +45,7 @@ NOT_WITH_TWO_PHASES = (
     *(("stress_scheme_update", word, f'"{word}" {ONE_PHASE}') for word in ONE_PHASE_SCHEMES),
     ("compatibility", None, "two phases have no earlier form that is worth keeping; leave it out"),
     ("results.energy", None, "the balance of energy is for one phase; leave it out"),
+    ("until", None, "the state of rest is that of one phase; leave it out"),
     *((cls.key, None, cls.one_phase_only) for cls in ACTIONS if cls.one_phase_only),
 )
 """Keys, with those that lead to them, and values (None: any) that do not go with two phases, and
@@ -192,12 +194,6 @@ class Settings:
         "Numbers to compare the results with, in any form; the solver ignores them", default=None
     )
     time: float = parameter("Simulated time", unit="s", above=0)
-    time_step: float | None = parameter(
-        "Time step; absent or 0: chosen from the critical one", unit="s", minimum=0, default=None
-    )
-    critical_time_step_multiplier: float = parameter(
-        "Share of the critical time step to use when none is given", above=0, default=0.25
-    )
     n_phases: int = parameter(
         "Number of phases: the solid alone, or with a fluid in its pores",
         choices=(1, 2),
@@ -271,7 +267,7 @@ Actions = make_dataclass("Actions", map(_field_of, ACTIONS), frozen=True)
 
 
 @dataclass(frozen=True)
-class Case(Actions, Method, Settings):
+class Case(Actions, Method, Stepping, Settings):
     """A simulation as its case file describes it, checked, defaults filled in, SI units."""
 
     results: Results = parameter("What the run writes", default=Results())

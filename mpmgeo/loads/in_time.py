@@ -38,6 +38,11 @@ class Course:
         """Return the factor of largest size."""
         return max(self.factor, key=abs)
 
+    @property
+    def end(self) -> float:
+        """Return the time [s] from which it is constant."""
+        return self.time[-1]
+
 
 @dataclass(frozen=True)
 class SineRamp:
@@ -51,6 +56,11 @@ class SineRamp:
     def at(self, t: float) -> float:
         """Return the factor at time t [s]."""
         return 1.0 if t >= self.duration else sin(pi / 2 * t / self.duration) ** 2
+
+    @property
+    def end(self) -> float:
+        """Return the time [s] from which it is constant."""
+        return self.duration
 
 
 @dataclass(frozen=True)

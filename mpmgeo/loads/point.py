@@ -112,10 +112,14 @@ class PointLoads(Effect):
     def after_nodes(self, solver, h):
         """Add the work of the forces to a ledger."""
         if solver.ledger is not None:
-            covered = self._owner >= 0
-            of_node, at = solver.grid.solid.at_nodes, self._record[covered]
-            v = of_node("velocity")[at] - 0.5 * h * of_node("acceleration")[at]
-            solver.ledger.put_in(h * float((self.force[covered] * v).sum()))
+            solver.ledger.put_in(self.work(solver, h))
+
+    def work(self, solver, h):
+        """Return the work [J] of the forces in a step whose nodes have their velocities."""
+        covered = self._owner >= 0
+        of_node, at = solver.grid.solid.at_nodes, self._record[covered]
+        v = of_node("velocity")[at] - 0.5 * h * of_node("acceleration")[at]
+        return h * float((self.force[covered] * v).sum())
 
     def news(self, solver):
         """Tell, once the nodes have their masses, of loads that act on nothing."""

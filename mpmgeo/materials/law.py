@@ -106,6 +106,14 @@ class Law:
         """Return the time [s] of a wave across a `cell` [m], particles moving at `speed` [m/s]."""
         return cell / (self.sound_speed() + speed)
 
+    def stiffening(self, volume, F) -> float:
+        """Return by how much ω² of the stiffest particle exceeds what it was at the start, ≥ 1.
+
+        `volume` (n,): V/V₀; F (n, 9): deformation gradients, or None. Stiffness V M of a particle
+        goes with its volume, where the law's moduli M are constant.
+        """
+        return float(volume.max(initial=1.0))
+
 
 @generic
 def update_stress(law, stress, strain, state, dt):

@@ -15,6 +15,8 @@ from dataclasses import dataclass
 from math import log
 from typing import ClassVar, NamedTuple
 
+import numpy as np
+
 from mpmgeo.materials.elastic import Elastic
 from mpmgeo.materials.hyperelastic import energy_of, stress_of
 from mpmgeo.numerics.jit import inlined
@@ -47,6 +49,17 @@ class NeoHookean(Elastic):
         if self.objective_rate != "none":
             message = "its stress turns with the deformation gradient; leave the rate out"
             yield "objective_rate", message
+
+    def stiffening(self, volume, F) -> float:
+        """Return by how much ω² of the stiffest particle exceeds what it was at the start, ≥ 1.
+
+        J M = λ (1 − ln J) + μ (1 + b) along an axis of b; Gershgorin's bound stands for b.
+        """
+        λ, G2, _ = self.moduli
+        A = F.reshape(-1, 3, 3)
+        b = np.abs(A @ A.transpose(0, 2, 1)).sum(axis=2).max(axis=1)
+        M = λ * (1.0 - np.log(volume)) + 0.5 * G2 * (1.0 + b)
+        return float((M / (λ + G2)).max(initial=1.0))
 
 
 @inlined

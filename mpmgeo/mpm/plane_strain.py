@@ -163,6 +163,7 @@ class PlaneStrain:
     def _show(self):
         plane, whole = self.plane, self.whole
         whole.time, whole.steps = plane.time, plane.steps
+        whole.time_step, whole.previous = plane.time_step, plane.previous
         whole.population, whole.moved_origin = plane.population, plane.moved_origin
         whole.gone = whole.count
         for s, here, rows in zip(plane.sets, whole.sets, self._rows, strict=True):
@@ -285,6 +286,7 @@ class PlaneStrain:
             head = f"{name}."
             owners[name].take({n[len(head) :]: v for n, v in state.items() if n.startswith(head)})
         new.time, new.steps, new.peak_energy = old.time, old.steps, old.peak_energy
+        new.time_step, new.previous = old.time_step, old.previous
         new.population, new.moved_origin = old.population, old.moved_origin
         new.clock, new.gone, self.acting = old.clock, sum(len(s.row) for s in new.sets), new
         new.arrange()

@@ -16,7 +16,7 @@ def restart(solver):
         s.stop()
     solver.population = solver.population._replace(position=position)
     solver.moved_origin = True
-    solver.time, solver.steps = 0.0, 0
+    solver.time, solver.steps, solver.previous = 0.0, 0, 0.0
     solver.peak_energy = solver.reactions = None
     for restarted in solver.asked["restarted"]:
         restarted(solver)

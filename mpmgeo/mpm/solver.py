@@ -16,9 +16,8 @@ from mpmgeo.mpm.locking import CellMeans
 from mpmgeo.mpm.newmark import Newmark
 from mpmgeo.mpm.persistence import copy_of, state_of, take_over
 from mpmgeo.mpm.restart import origin_of, restart
-from mpmgeo.mpm.schemes import first_step
 from mpmgeo.mpm.stages import Stages
-from mpmgeo.mpm.tally import tally
+from mpmgeo.mpm.tally import sag, tally
 from mpmgeo.mpm.task import OnePhase
 from mpmgeo.numerics.clock import Clock
 from mpmgeo.state.checked import array_from, demand, number_from, whole_from
@@ -53,6 +52,7 @@ class Solver(Stages):
     transfer: object = None  # how velocities go to particles; None: FLIP
     leaky: bool = False  # whether particles may pass planes that hold, as in MPM-Geomechanics
     cutoff: float = 0.0  # [kg] nodal mass up to which forces do not move a node
+    scaling: float = 1.0  # factor of the inertia, not of weight and loads; not for Newmark's
     cells: CellMeans | None = None  # of strain and stress, if the particles of a cell share them
 
     time: float = 0.0
@@ -66,6 +66,7 @@ class Solver(Stages):
         self.reactions = None  # (6 + tools, 3) [N] of planes and tools when last measured
         self.ledger = None  # of energy, if it is asked for
         self.peak_energy = None  # before the particles were stopped in the last step, if they were
+        self.previous = 0.0  # the step before [s]; while effects end a step, that one
         self.gone = self.count  # how many particles are not where the order says
         self.moved_origin = False  # whether displacements count from a later time than the start
         self.motion = STILL  # of a plane that moves
@@ -73,7 +74,7 @@ class Solver(Stages):
         self.nodal = OnePhase()
         for s in self.sets:
             s.lie_in(self.grid)
-            if isinstance(self.scheme, Newmark) and s.a is None:
+            if self.is_whole and s.a is None:
                 s.a = np.zeros_like(s.v)
         self.asked = {
             hook: [getattr(effect, hook) for effect in self.effects if effect.overrides(hook)]
@@ -101,9 +102,14 @@ class Solver(Stages):
         return self.effect("ground")
 
     @property
+    def is_whole(self) -> bool:
+        """Return whether velocities are of the times of positions, not half a step behind."""
+        return isinstance(self.scheme, Newmark)
+
+    @property
     def load_time(self) -> float:
         """Return of which time the loads of the next step are [s]: with Newmark's its end."""
-        return self.time + (self.time_step if isinstance(self.scheme, Newmark) else 0.0)
+        return self.time + (self.time_step if self.is_whole else 0.0)
 
     def news(self):
         """Yield (topic, messages) for what the user should be told of, `messages` a function."""
@@ -128,8 +134,14 @@ class Solver(Stages):
             self._sort(judge=False)
 
     def step(self):
-        """Advance by one time step; the first may change velocities by less (`first_step`)."""
-        h = self.time_step * (first_step(self.scheme) if self.steps == 0 else 1.0)
+        """Advance by one time step.
+
+        Velocities change over h, from the middle of the step before to that of this one, or, in
+        Newmark's method, over the step; there is no step before the first. What has more inertia
+        changes its velocity as if h were shorter.
+        """
+        h = self.time_step if self.is_whole else 0.5 * (self.previous + self.time_step)
+        h /= self.scaling
         self.clock.begin()
         if self.gone:
             self._sort()
@@ -139,6 +151,7 @@ class Solver(Stages):
         self.scheme(self, h)
         self.steps += 1
         self.time += self.time_step
+        self.previous = self.time_step
         for end in self.asked["end"]:
             end(self)
 
@@ -162,6 +175,8 @@ class Solver(Stages):
 
         Positions and volumes are taken back by half a step, to where the velocities are.
         """
+        if self.scaling != 1.0:
+            return None
         works = any(effect.does_work for effect in self.effects)
         works = works or any(opens_under_pressure(s) for s in self.sets)
         if self.ledger is None and (works or not all(stores_energy(s.law) for s in self.sets)):
@@ -169,8 +184,10 @@ class Solver(Stages):
         here = self.tally()
         if self.ledger is not None:
             return self.ledger.energies(here.within)
-        lag = 0.5 * self.time_step if self.steps else 0.0
+        lag = 0.5 * self.previous
         potential = float((here.potential - lag * here.power).sum())
+        if self.effect("time step") is not None:
+            potential -= sag(self.sets, self.gravity, self.previous)
         potential += float(self.tally(left=True).potential.sum())
         held = float((here.kinetic + here.strain).sum())
         return Energies(held - potential, here.within, 0.0, held + abs(potential))
@@ -263,6 +280,7 @@ class Solver(Stages):
                 self.population._replace(position=origin.copy()),
                 True,
             )
+        self.previous = self.time_step if self.steps else 0.0
         blocks = len(self.grid.keys)
         for s in self.sets:
             unsorted = blocks == 0 and (self.gone > 0 or s.active == 0)

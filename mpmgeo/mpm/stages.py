@@ -122,15 +122,24 @@ class Stages(Loops):
         for act in self.asked["after_gather"]:
             self.gone += act(self)
 
+    @property
+    def strain_step(self):
+        """Return over which step strains come [s] that come before forces.
+
+        Velocities of particles are those of the step before, and so are these strains, unless the
+        velocities are predicted; in the first step there is none before.
+        """
+        return self.time_step if self.is_whole or self.steps == 0 else self.previous
+
     def strain_and_force(self):
         """Update stress with the nodal velocities, add the internal force to the tiles."""
-        tiles, nodes = (self.grid.tiles,), self.grid.nodes
+        tiles, nodes, dt = (self.grid.tiles,), self.grid.nodes, self.strain_step
         for s in self.sets:
             if self.cells is None:
-                work = StrainAndForce(s.law, s.rotation, self.time_step)
+                work = StrainAndForce(s.law, s.rotation, dt)
                 self.over_particles(work, s, (s.pressure, s.material), tiles, nodes)
                 continue
-            work = Strain(s.law, s.rotation, self.time_step)
+            work = Strain(s.law, s.rotation, dt)
             self.over_particles(work, s, (s.material, self.mean_divergences(s)), None, nodes)
             arrays = (s.V, s.stress, s.pressure, self.mean_stresses(s))
             self.over_particles(Force(), s, arrays, tiles)

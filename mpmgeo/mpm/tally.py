@@ -89,3 +89,16 @@ def tally(sets, gravity, body, crew, left=False) -> Tally:
         _tally(crew, chunk, start, s.law, gravity, body, arrays, out)
         total += out.sum(axis=0)
     return Tally(total[:, 0], total[:, 1:4], *total[:, 4:].T)
+
+
+def sag(sets, gravity, step):
+    """Return by how much [J] the work of constant forces is too large at the mean of two positions.
+
+    A path of the acceleration f/m sags by f/m h²/8 in a `step` h [s]: it matters where steps change.
+    """
+    squares = 0.0
+    for s in sets:
+        f = s.m[: s.active, None] * np.array(gravity)
+        f = f if s.force is None else f + s.force[: s.active]
+        squares += float(((f * f).sum(axis=1) / s.m[: s.active]).sum())
+    return 0.125 * step**2 * squares

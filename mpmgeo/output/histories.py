@@ -72,8 +72,8 @@ def _time(line):
 
 
 class Histories:
-    """Watches a run and keeps its histories; their files are complete at outputs, every `outputs`
-    steps, and at the end."""
+    """Watches a run and keeps its histories; their files are complete at `outputs` and at the
+    end."""
 
     def __init__(self, histories, outputs):
         self.histories = histories
@@ -91,7 +91,7 @@ class Histories:
     def after_step(self, simulation):
         """Add the rows that are due."""
         self._add(simulation)
-        if simulation.steps % self.outputs == 0:
+        if self.outputs.are_due(simulation):
             self._flush()
 
     def end(self, simulation, error):

@@ -16,14 +16,14 @@ MANY_CELLS = (
 
 
 class ResultFiles:
-    """Watches a run and writes what the case asks for into a folder, every `every` steps."""
+    """Watches a run and writes what the case asks for into a folder; `outputs`: when."""
 
-    def __init__(self, folder, case, every):
+    def __init__(self, folder, case, outputs):
         self.results = case.results
         of_fluid = case.results.fluid_fields if case.n_phases == 2 else ()
         self.fields = case.results.particle_fields + of_fluid
         self.mesh = case.mesh
-        self.every = every
+        self.outputs = outputs
         self.folder = folder
         self.particles = Collection(folder / "particles" / "particleTimeSerie.pvd")
         self.grid = Collection(folder / "grid" / "gridTimeSerie.pvd")
@@ -53,7 +53,7 @@ class ResultFiles:
 
     def _go_on(self, simulation, path):
         """Take up the files as they were when the run had come to this state."""
-        is_due = simulation.steps % self.every == 0
+        is_due = self.outputs.are_due(simulation)
         for collection in self._collections(simulation):
             collection.take_up(simulation.label, is_due)
         self.energy = EnergySeries(path, earlier_rows(path, simulation.label, is_due))
@@ -61,12 +61,13 @@ class ResultFiles:
 
     def after_step(self, simulation):
         """Write an output if one is due."""
-        if simulation.steps % self.every == 0:
+        if self.outputs.are_due(simulation):
             self._write(simulation)
 
     def end(self, simulation, error):
         """Write the last state of a run that did not come to its end."""
-        if (error or simulation.interrupted) and self.written != simulation.steps:
+        is_cut_short = simulation.interrupted or simulation.stopped is not None
+        if (error or is_cut_short) and self.written != simulation.steps:
             self._write(simulation)
 
     def _write(self, simulation, first=False):

@@ -9,7 +9,7 @@ COLUMNS = (
     (0, "{task.percentage:3.0f}%"),
     (0, "{task.fields[left]}"),
     (76, "{task.fields[speed]:.2f} M particle-steps/s"),
-    (100, "Ekin {task.fields[energy]:.3e} J"),
+    (100, "Ekin {task.fields[energy]:.3e} J{task.fields[rest]}"),
 )
 """What the line holds, each with the width of the terminal from which on there is room for it."""
 
@@ -54,7 +54,7 @@ class Bar:
         self._progress = Progress(
             *columns, console=self.console, refresh_per_second=1 / REFRESH, expand=True
         )
-        state = {"step": 0, "time": 0.0, "left": self.left, "speed": 0.0, "energy": 0.0}
+        state = {"step": 0, "time": 0.0, "left": self.left, "speed": 0.0, "energy": 0.0, "rest": ""}
         self._task = self._progress.add_task("run", total=total, **state)
         self._progress.start()
 

@@ -1,5 +1,6 @@
 """The time loop: it knows no physics."""
 
+from mpmgeo.instants import has_come_to
 from mpmgeo.run.interrupt import Interrupt
 from mpmgeo.run.watch import StopRun, Watcher
 
@@ -22,7 +23,9 @@ def run(simulation, until, watchers):
             for watcher in watchers:
                 begun.append(watcher)
                 _tell([watcher], "begin", simulation)
-            while simulation.time < until and not interrupt.asked and simulation.stopped is None:
+            while not (
+                has_come_to(simulation, until) or interrupt.asked or simulation.stopped is not None
+            ):
                 simulation.advance()
                 _tell(watchers, "after_step", simulation)
         except BaseException as caught:

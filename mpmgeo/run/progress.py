@@ -7,6 +7,7 @@ from time import perf_counter
 from numba.core import event
 
 from mpmgeo.run.bar import REFRESH, Bar
+from mpmgeo.run.rest import figures
 from mpmgeo.run.terminal import without_controls
 from mpmgeo.run.watch import Watcher
 
@@ -110,13 +111,15 @@ class Progress(Watcher):
         energy = simulation.kinetic_energy()
         if self._bar is not None:
             time, steps = simulation.time, simulation.steps
-            self._bar.update(left, time, step=steps, speed=speed, energy=energy)
+            self._bar.update(
+                left, time, step=steps, speed=speed, energy=energy, rest=figures(simulation)
+            )
             return
         share = min(simulation.time / simulation.case.time, 1.0)
         ahead = "" if left is None else f"{left:.0f} s left, "
         self._print(
             f"step {simulation.steps}, t = {simulation.time:.4g} s, {100 * share:.0f}%, "
-            f"{ahead}{speed:.2f} M particle-steps/s, Ekin {energy:.3e} J"
+            f"{ahead}{speed:.2f} M particle-steps/s, Ekin {energy:.3e} J{figures(simulation)}"
         )
 
     def _news(self, simulation):
@@ -169,6 +172,7 @@ class Progress(Watcher):
 def about_step(simulation):
     """Return the time step beside those that it may be compared with."""
     stable, step = simulation.stable_time_step, f"time step {simulation.time_step:.4g} s"
+    step += " at the start, adaptive" if simulation.case.is_adaptive else ""
     if stable == inf:  # no particles
         return step
     limit = f"stable up to {stable:.4g} s" if stable else "no step is stable"

@@ -37,7 +37,7 @@ FLIGHT = 0.02
 class Surplus(Watcher):
     """Compares the energy with the least one so far, when the guard checks.
 
-    `outputs`: steps between outputs.
+    `outputs`: when they are, see `run.outputs`.
     """
 
     def __init__(self, outputs):

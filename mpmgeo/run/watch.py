@@ -1,5 +1,7 @@
 """Who watches a run: what watchers are told, how they stop it, and the guard, which is one."""
 
+from mpmgeo.instants import has_come_to
+
 EVERY = 50  # steps between checks
 
 
@@ -28,15 +30,15 @@ class Diverged(Exception):
 
 
 def is_due(simulation, outputs) -> bool:
-    """Tell whether the state is to be checked, `outputs` being the steps between outputs."""
-    due = simulation.steps % EVERY == 0 or simulation.steps % outputs == 0
-    return due or simulation.time >= simulation.case.time
+    """Tell whether the state is to be checked, which is before all `outputs`, too."""
+    due = simulation.steps % EVERY == 0 or outputs.are_due(simulation)
+    return due or has_come_to(simulation, simulation.case.time)
 
 
 class Guard(Watcher):
     """Checks before every output and every `EVERY` steps; goes back to the last sound state.
 
-    `outputs`: steps between outputs.
+    `outputs`: when they are, see `run.outputs`.
     """
 
     def __init__(self, outputs):

@@ -79,6 +79,11 @@ def _kind(shape):
     return _class_of(shape.types[0] if hasattr(shape, "types") else shape.shape)
 
 
+def in_space(shape):
+    """Return the shape that changes along all axes."""
+    return shape if across(shape) is None else shape.shape
+
+
 def width(shape):
     """Return S, the number of nodes that the shape reaches along an axis."""
     return _kind(shape).width

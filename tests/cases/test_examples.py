@@ -58,6 +58,16 @@ def slope_under_its_weight(example):
     assert example["crest_settlement_braked"] == pytest.approx(settlement, rel=0.01)
 
 
+def three_ways_to_rest(example):
+    """ΣVσzz = −Σmgz to 0.5 % in all ways; inertia does not change the settlement."""
+    rests, settlements = example["rests"], example["settlements"]
+    assert all(simulation.stopped.startswith("at rest") for simulation in rests.values())
+    assert list(example["balances"].values()) == pytest.approx([1.0] * 3, rel=0.006)
+    assert settlements["scaled inertia"] == pytest.approx(settlements["real inertia"], rel=1e-3)
+    real, scaled = rests["real inertia"], rests["scaled inertia"]
+    assert scaled.time_step == pytest.approx(10 * real.time_step)
+
+
 def dam_break(example):
     """The front is ahead by the time that the gate takes; water that sticks is slower.
 
@@ -80,6 +90,7 @@ CHECKS = {
     "04_colliding_spheres": colliding_spheres,
     "05_slope_under_its_weight": slope_under_its_weight,
     "06_dam_break": dam_break,
+    "07_three_ways_to_rest": three_ways_to_rest,
 }
 
 

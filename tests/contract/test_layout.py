@@ -16,7 +16,7 @@ FILE = pytest.mark.parametrize("path", FILES, ids=[str(f.relative_to(PACKAGE)) f
 
 # Each part of the package imports only from the rows above its own.
 LEVELS = (
-    {"parameters", "numerics", "naming", "values", "positions", "effect"},
+    {"parameters", "numerics", "naming", "values", "positions", "instants", "effect"},
     {"region", "listed", "action", "formulation"},
     {"state"},
     {"shapes", "materials", "bodies", "boundaries", "loads", "damping", "transfers", "output"},
@@ -32,7 +32,7 @@ LEVEL = {part: level for level, parts in enumerate(LEVELS) for part in parts}
 # Stricter than their rows: output shows what others computed, the loop knows no physics.
 ONLY = {
     "output": {"output", "naming", "numerics", "parameters", "positions", "region", "state"},
-    "run": {"run", "numerics", "parameters", "positions", "state"},
+    "run": {"run", "instants", "numerics", "parameters", "positions", "state"},
 }
 HEAVY = {"vtk", "vtkmodules", "pyvista", "meshio", "scipy", "jsonschema", "rich", "matplotlib"}
 MOST_LINES = 300

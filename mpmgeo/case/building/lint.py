@@ -9,7 +9,8 @@ from mpmgeo.case.building.limits import limits
 from mpmgeo.case.building.locking import locking
 from mpmgeo.case.building.overlap import overlaps
 from mpmgeo.case.building.proportions import out_of_proportion
-from mpmgeo.case.building.rest import unlikely_rest
+from mpmgeo.case.building.time_step import MARGIN
+from mpmgeo.case.building.unlikely_start import unlikely_rest
 from mpmgeo.case.coordinates import in_mesh
 from mpmgeo.case.spec import ACTIONS
 from mpmgeo.positions import shown
@@ -24,9 +25,6 @@ SIGNIFICANT = 0.99
 
 VALUES_PER_PERIOD = 4
 """Values of a record, and time steps, that a wave needs not to be lost between them."""
-
-MARGIN = 0.9
-"""Share of the stable time step that is proposed."""
 
 COARSE = 0.01
 """Share of a cell to which the corners of a terrain should be known."""

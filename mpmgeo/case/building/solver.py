@@ -7,11 +7,14 @@ from mpmgeo.case.building.fluid import pore_fluid, saturate
 from mpmgeo.case.building.in_time import in_time
 from mpmgeo.case.building.initial_stress import begin
 from mpmgeo.case.building.motions import base, bind_tools
+from mpmgeo.case.building.outputs import instants_of
+from mpmgeo.case.building.pace import pace
 from mpmgeo.case.building.plane_strain import in_plane_strain
 from mpmgeo.case.building.population import populate
+from mpmgeo.case.building.rest import equilibrium
 from mpmgeo.case.building.sets import particle_sets
 from mpmgeo.case.building.terrain import bind_terrain
-from mpmgeo.case.building.time_step import time_step
+from mpmgeo.case.building.time_step import on_scaling, time_step
 from mpmgeo.case.coordinates import in_mesh
 from mpmgeo.damping import LocalDamping
 from mpmgeo.loads import LOADS
@@ -47,6 +50,7 @@ def build(case, body_force=None, starts=True):
     if starts:
         begin(case, sets, population, law, tools, notes)
     lightest = min((float(s.m.min()) for s in sets), default=0.0)
+    notes += on_scaling(case, velocity)
     cutoff = 0.0 if legacy else TOUCH**shape.edge * lightest
     damping, early = _damping(case)
 
@@ -68,6 +72,7 @@ def build(case, body_force=None, starts=True):
             transfer=case.transfer.symbols,
             leaky=legacy,
             cutoff=cutoff,
+            scaling=case.density_scaling,
             cells=CellMeans() if case.volumetric_locking == "cells" else None,
         )
 
@@ -83,6 +88,7 @@ def _effects(case, population, contact, body_force, notes):
     legacy, velocity = case.compatibility is not None, np.zeros_like(population.position)
     mesh = Mesh.of(case.mesh.cells_dimension, case.mesh.cells_number)
     effects = (
+        pace(case, instants_of(case)),
         base(case, notes),
         bind_tools(case, population, velocity)[0],
         pore_fluid(case),
@@ -90,6 +96,7 @@ def _effects(case, population, contact, body_force, notes):
         *_of_loads(case, mesh),
         _reactions(case),
         *(_of_damping(kind, legacy) for kind in case.dampings),
+        equilibrium(case),
         _domains(case),
         _ledger(case),
         in_time(case, population.position),

@@ -10,6 +10,8 @@ from mpmgeo.case.meaning.bodies import check_bodies, check_materials
 from mpmgeo.case.meaning.deformation import check_deformation
 from mpmgeo.case.meaning.domains import check_domains
 from mpmgeo.case.meaning.phases import check_phases, note_idle
+from mpmgeo.case.meaning.rest import check_rest
+from mpmgeo.case.meaning.scaling import check_scaling
 from mpmgeo.case.meaning.schemes import check_schemes
 from mpmgeo.case.meaning.slips import warn_of_slips
 from mpmgeo.case.meaning.start import check_start
@@ -30,6 +32,8 @@ def check(draft, report):
     check_materials(draft, sound, report)
     _check_points(draft, report)
     check_steps(draft, report)
+    check_rest(draft, report)
+    check_scaling(draft, report)
     check_schemes(draft, report)
     check_domains(draft, report)
     check_deformation(draft, report)

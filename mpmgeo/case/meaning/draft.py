@@ -103,7 +103,8 @@ class _Maker:
         if kind.name == "file":
             return self._file(value, path)
         if kind.name in SCALARS:
-            return None if value is None and kind.is_nullable else SCALARS[kind.name](value)
+            is_itself = value in metadata["words"] or (value is None and kind.is_nullable)
+            return value if is_itself else SCALARS[kind.name](value)
         if kind.name == "map":
             made = {k: self.value(kind.item, metadata, v, (*path, k)) for k, v in value.items()}
             return BROKEN if BROKEN in made.values() else made

@@ -2,7 +2,9 @@
 
 import math
 
+from mpmgeo.case.stepping import ADAPTIVE
 from mpmgeo.materials import saturation
+from mpmgeo.values import shown
 
 MOST_STEPS = 1e12
 """Steps beyond which no run comes to its end."""
@@ -14,6 +16,10 @@ def check_steps(draft, report):
     if "time" not in case or "time_step" not in case:
         return
     time, step = case["time"], case["time_step"]
+    if step == ADAPTIVE and case.get("compatibility") is not None:
+        message = f"MPM-Geomechanics keeps its step; leave {shown(ADAPTIVE)} or compatibility out"
+        report.error(("time_step",), message)
+    step = None if step == ADAPTIVE else step
     key = "time" if step is None else "time_step"
     if step is None:
         step = _automatic_step(draft)

@@ -75,7 +75,8 @@ def accepted(schema, is_limit=False, plural=False) -> str:
         null = " or null" if "null" in kinds else ""
         name = ", or a name" if kinds == ["integer", "string"] else ""
         name = ", or the word of its type" if kinds == ["object", "string"] else name
-        return NOUNS[kind][plural] + null + _limits(schema, is_limit) + name
+        words = "".join(f", or {shown(word)}" for word in schema.get("examples", ()))
+        return NOUNS[kind][plural] + null + _limits(schema, is_limit) + name + words
     count = f" of {schema['minItems']}" if schema.get("minItems", 0) > 1 else ""
     if "prefixItems" in schema:
         return f"{NOUNS[kind][plural]}{count} {accepted(schema['prefixItems'][0], plural=True)}"
@@ -97,7 +98,7 @@ def _limits(schema, is_limit):
 
 def _wrong(error, path, schema, report):
     value, place = error.instance, place_of(path)
-    near = meant(value, error.schema.get("enum", ()))
+    near = meant(value, error.schema.get("enum", error.schema.get("examples", ())))
     hint = f"; did you mean {shown(near)}?" if near else ""
     text = accepted(error.schema, is_limit=error.validator in LIMITS)
     if place[-2:] in FIELD_ENTRIES and isinstance(value, str):

@@ -149,6 +149,12 @@ def _scalar(kind, metadata):
         result |= INTEGERS
     if metadata["names"] is not None:
         result["type"] = [result["type"], "string"]
+    if metadata["words"]:  # of which only texts have to be one
+        result["type"] = [result["type"], "string"]
+        result |= {
+            "pattern": f"^({'|'.join(metadata['words'])})$",
+            "examples": list(metadata["words"]),
+        }
     for name, value in metadata["bounds"].items():
         result[BOUNDS[name]] = value
     if metadata["choices"] is not None:

@@ -100,7 +100,7 @@ class Ledger(Effect):
     does_work = False
 
     def __init__(self, every, is_early=False):
-        self.every = every
+        self.every, self.is_early = every, is_early
         self.weights = (1.5, 1.5, 0.5) if is_early else (0.5, 0.5, 0.5)
         self.sums = np.zeros(2)  # put in at nodes, damped
         self.start = np.full(5, np.nan)  # kinetic, strain, given, plastic; strain with who left
@@ -112,6 +112,7 @@ class Ledger(Effect):
         """Let effects find the ledger."""
         self.solver = solver
         solver.ledger = self
+        self._is_paced = solver.effect("time step") is not None
 
     def put_in(self, work):
         """Count work [J] that an effect has done on the nodes, or on the particles."""
@@ -147,9 +148,12 @@ class Ledger(Effect):
     def begin(self, solver, h):
         """Note what there is before the step."""
         due = (solver.steps + 1) % self.every == 0
+        if self.is_early and solver.previous:
+            self.weights = (*(1.0 + 0.5 * (solver.time_step / solver.previous),) * 2, 0.5)
         self._begins = bool(np.isnan(self.start[0]))
         if self._begins:
             self.start[4] = sum(solver.tally(left).strain.sum() for left in (False, True))
+        self._h = h
         if due or self._begins:
             *self._before, self._power = self._levels()
         if self._begins:
@@ -186,21 +190,30 @@ class Ledger(Effect):
             self._set_start(solver, now, power)
         if due:
             both = zip(self._before, now, self.weights, strict=True)
+            if self._is_paced:
+                now[2] -= 2.0 * self._sag(power)  # of which half is taken
             values = (before + weight * (after - before) for before, after, weight in both)
             self.figures[:] = self._row(solver.kinetic_energy(), *values)
         solver.clock.lap(self.name)
 
     def _set_start(self, solver, now, power):
         """Set what there was when the velocities were those before the step, which is done now."""
-        h, (strain, plastic, given) = solver.time_step, self._before
-        if solver.steps == 1:
-            # the first step of the velocities is half of that of the positions
-            self.sums[0] -= 0.25 * h * (power - self._power)
-        else:  # half a step before the positions
+        h, (strain, plastic, given) = solver.previous, self._before
+        if solver.steps == 1 and not self._is_paced:
+            self.sums[0] -= self._sag(power)
+        elif solver.steps > 1:  # half a step before the positions
             strain += (self.weights[0] - 1.0) * (now[0] - strain)
             plastic += (self.weights[1] - 1.0) * (now[1] - plastic)
             given -= 0.5 * h * self._power
         self.start[1:4] = strain, given, plastic
+
+    def _sag(self, power):
+        """Return the work [J] to the mean of two positions less that to the one between them.
+
+        A path of the acceleration a sags by a h²/8, so it is as much in all steps of a length; in
+        the first one velocities change over half of it.
+        """
+        return 0.125 * self.solver.previous**2 * (power - self._power) / self._h
 
     def _row(self, kinetic, strain, plastic, given):
         plastic -= self.start[3]

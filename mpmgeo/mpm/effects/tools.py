@@ -67,9 +67,8 @@ class Tools(Effect):
 
         They are those of the middle of the steps, where the velocities of all particles are.
         """
-        dt = solver.time_step
-        self.before[:] = self._at(max(solver.time - 0.5 * dt, 0.0))
-        self.after[:] = self._at(solver.time + 0.5 * dt)
+        self.before[:] = self._at(max(solver.time - 0.5 * solver.previous, 0.0))
+        self.after[:] = self._at(solver.time + 0.5 * solver.time_step)
         self._claim(solver)
         solver.driven = Driven(), (self.owner, self.given, self.before, self.after)
         solver.clock.lap(self.name)

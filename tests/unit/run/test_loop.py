@@ -13,12 +13,13 @@ from mpmgeo.run.watch import StopRun
 class Stepper:
     """A simulation of nothing, in steps of one second."""
 
-    def __init__(self, log, fails_in=None):
+    def __init__(self, log, fails_in=None, time_step=1.0):
+        self.time_step = time_step
         self.log, self.fails_in = log, fails_in
         self.time, self.interrupted = 0.0, None
 
     def advance(self):
-        self.time += 1.0
+        self.time += self.time_step
         self.log.append("step")
         if self.time == self.fails_in:
             raise ArithmeticError("no more")
@@ -63,6 +64,22 @@ def test_order(log):
 def test_runs_while_time_is_left(log, until, steps):
     run(Stepper(log), until, [])
     assert log == ["step"] * steps
+
+
+@pytest.mark.parametrize("count", [3, 10, 531, 1000, 6000])
+def test_round_off_costs_no_step(log, count):
+    """Sums of such steps fall short of the time, or exceed it, by round-off."""
+    for time in (0.1, 0.3, 0.7, 1.0):
+        simulation = Stepper(log, time_step=time / count)
+        log.clear()
+        run(simulation, time, [])
+        run(simulation, time, [])
+        assert log == ["step"] * count
+
+
+def test_what_is_left_is_run(log):
+    run(Stepper(log), 2.02, [])
+    assert log == ["step"] * 3
 
 
 def test_end_hears_of_the_error(log):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from assembly import simulate, two_blocks
 
+from mpmgeo.run.outputs import EverySteps
 from mpmgeo.run.watch import EVERY, Diverged, Guard
 
 
@@ -14,7 +15,7 @@ class Checked:
 
     def __init__(self, fails_in=None):
         self.case = SimpleNamespace(time=1e9)
-        self.steps, self.time, self.fails_in = 0, 0.0, fails_in
+        self.steps, self.time, self.time_step, self.fails_in = 0, 0.0, 1.0, fails_in
         self.checked, self.kept, self.restored = [], [], 0
 
     def check(self):
@@ -30,7 +31,7 @@ class Checked:
 
 
 def watch(simulation, outputs, steps):
-    guard = Guard(outputs)
+    guard = Guard(EverySteps(outputs))
     guard.begin(simulation)
     error = None
     try:
@@ -69,7 +70,7 @@ def test_what_fails_the_check_is_not_kept():
 
 def test_other_errors_keep_the_state():
     simulation = Checked()
-    guard = Guard(10)
+    guard = Guard(EverySteps(10))
     guard.begin(simulation)
     guard.end(simulation, OSError())
     assert not simulation.restored
