@@ -13,85 +13,11 @@ each of them, with a stencil of one node across.
 
 import numpy as np
 
-from mpmgeo.effect import Effect
+from mpmgeo.mpm.columns import EXTENSIVE, ROUND_OFF, SHEAR, are_same, to_layer
 from mpmgeo.mpm.persistence import state_of
 from mpmgeo.shapes.shape import stencil, width
-from mpmgeo.state.grid import Mesh, corners_of, cut, keys_of
+from mpmgeo.state.grid import corners_of, cut, keys_of
 from mpmgeo.state.layout import SIDE
-
-EXTENSIVE = ("m", "V", "force", "work")
-"""Arrays of a set that hold for a whole column what each of its particles has a share of."""
-
-
-def seen_in_plane(mesh, axis):
-    """Return a mesh as kernels see it that know nothing of an axis, with one cell along it.
-
-    All particles stand on its lower side. The nodes there have half of the cell, which is as wide
-    as the material.
-    """
-    h, n = list(mesh[:3]), list(mesh[6:])
-    h[axis], n[axis] = 2.0 * h[axis] * n[axis], 1
-    return Mesh.of(h, n)
-
-
-SHEAR = ([3, 5], [3, 4], [4, 5])
-"""Components of stress that are zero in plane strain across x, y, z."""
-ROUND_OFF = 1e-9
-"""Share of the largest value of a field by which layers may differ and count as the same."""
-
-
-class Columns:
-    """Which particles stand in a row across the material; `axis`: along which.
-
-    `first` (n,): the row of the particle that stands for each row; `layers`: how many each has.
-    """
-
-    def __init__(self, axis, first, layers):
-        self.axis, self.first, self.layers = axis, first, layers
-        self.order = np.argsort(first, kind="stable")
-        self._begin = first[self.order]
-
-    def rows_of(self, rows):
-        """Return the rows of all particles for which those of `rows` stand, in order."""
-        low = np.searchsorted(self._begin, rows)
-        return np.sort(self.order[(low[:, None] + np.arange(self.layers)).ravel()])
-
-
-def to_layer(s, columns):
-    """Let particles of a set stand for their columns."""
-    s.x[:, columns.axis] = s.v[:, columns.axis] = 0.0
-    s.stress[:, SHEAR[columns.axis]] = 0.0
-    for name in EXTENSIVE:
-        if getattr(s, name) is not None:
-            getattr(s, name)[...] *= columns.layers
-
-
-class Across(Effect):
-    """The forces of the two planes between which the material stands, beside those in the plane.
-
-    They are the stress across, over the area: F = ∓ Σ σ V/thickness.
-    """
-
-    name = "across"
-    does_work = False
-
-    def __init__(self, axis, thickness):
-        self.axis, self.thickness = axis, thickness
-        self._last = None
-
-    def before_nodes(self, solver, task):
-        """Add them, if the forces of planes have been measured in this step."""
-        if solver.reactions is None or solver.reactions is self._last:
-            return
-        self._last = solver.reactions
-        sums = (s.stress[: s.active, self.axis] @ s.V[: s.active] for s in solver.sets)
-        force = sum(sums) / self.thickness
-        solver.reactions[self.axis, self.axis] = -force
-        solver.reactions[3 + self.axis, self.axis] = force
-
-    def resumed(self, solver):
-        """Know the forces that were measured before."""
-        self._last = solver.reactions
 
 
 class PlaneStrain:
@@ -319,12 +245,6 @@ class PlaneStrain:
         return all(
             np.abs(a).max() <= ROUND_OFF * size for a, size in zip(across, sizes, strict=True)
         )
-
-
-def are_same(values, others):
-    """Tell whether values are others but for round-off."""
-    size = np.abs(values).max(initial=0.0)
-    return bool((np.abs(values - others) <= ROUND_OFF * size).all())
 
 
 def _names_of_sets(solver):

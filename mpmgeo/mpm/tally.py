@@ -94,7 +94,7 @@ def tally(sets, gravity, body, crew, left=False) -> Tally:
 def sag(sets, gravity, step):
     """Return by how much [J] the work of constant forces is too large at the mean of two positions.
 
-    A path of the acceleration f/m sags by f/m h²/8 in a `step` h [s]: it matters where steps change.
+    A path of the acceleration f/m sags by f/m h²/8 in a `step` h [s]; matters where steps change.
     """
     squares = 0.0
     for s in sets:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import mpmgeo
-from mpmgeo.mpm.plane_strain import Columns
+from mpmgeo.mpm.columns import Columns
 from mpmgeo.run.watch import Diverged
 
 CELL = 0.1

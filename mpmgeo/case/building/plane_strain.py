@@ -5,15 +5,9 @@ from dataclasses import replace
 import numpy as np
 
 from mpmgeo.boundaries.planes import FREE, SLIDING
-from mpmgeo.mpm.plane_strain import (
-    SHEAR,
-    Across,
-    Columns,
-    PlaneStrain,
-    are_same,
-    seen_in_plane,
-    to_layer,
-)
+from mpmgeo.mpm.columns import SHEAR, Columns, are_same, seen_in_plane, to_layer
+from mpmgeo.mpm.effects.across import Across
+from mpmgeo.mpm.plane_strain import PlaneStrain
 from mpmgeo.mpm.solver import SMALL
 from mpmgeo.shapes.shape import UNIFORM, widths
 from mpmgeo.state.grid import Grid
