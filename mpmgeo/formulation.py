@@ -94,3 +94,12 @@ class Formulation(Protocol):
 
     def restore(self, kept: dict) -> None:
         """Go back to the state that `keep` returned."""
+
+    def solver_of(self, state: dict) -> "Formulation":
+        """Return the solver that a state, or the entries of a snapshot, is one of."""
+
+    def assigned(self) -> None:
+        """Take note that somebody has given particles other values."""
+
+    def restart(self) -> None:
+        """Count time and displacements from now on, at rest, with the present stresses."""

@@ -1,6 +1,6 @@
 """A case that runs: what scripts and the command line work with."""
 
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 
 import numba
@@ -80,6 +80,7 @@ class Simulation:
         ValueError if the snapshot cannot be used or is not of the case.
         """
         from mpmgeo.case import resume
+        from mpmgeo.case.building.taking_up import take_up
         from mpmgeo.state.snapshot import StoredSnapshot
 
         snapshot = StoredSnapshot(path)
@@ -90,15 +91,13 @@ class Simulation:
         case, changed = resume.branch_of(path, snapshot.facts, case, allow)
         simulation = cls.__new__(cls)
         simulation._build(case, output, threads, body_force, starts=False)
-        resume.take_up(simulation.solver, snapshot, body_force)
+        original = partial(load_case, snapshot.facts["case"])
+        take_up(simulation.solver, snapshot, original, body_force)
         simulation._told = told
         simulation.goes_on = True
         if changed:
             simulation._changed()
-        simulation.changes = [
-            *snapshot.facts.get("changes", ()),
-            *resume.record_of(simulation, changed),
-        ]
+        simulation.changes = resume.record_of(simulation, changed, snapshot.facts)
         for remark in resume.remarks_on(simulation, changed):
             simulation.say(remark)
         return simulation

@@ -1,7 +1,5 @@
 """What a snapshot says about its case, and with which case a run may go on from it."""
 
-from dataclasses import replace
-
 from mpmgeo.case.load import load_case, resolved
 from mpmgeo.case.meaning.fingerprint import FREE, differences, fingerprint, leaves
 from mpmgeo.case.report import nearest
@@ -110,32 +108,12 @@ def check_force(path, facts, body_force) -> None:
         raise ValueError(f"{path}: the run has no body_force; leave it out")
 
 
-def take_up(solver, snapshot, body_force) -> None:
-    """Give a solver the state of a stored snapshot; ValueError if it does not fit.
-
-    One of a layer goes to a solver of all by way of the case that the snapshot is of.
-    """
-    from mpmgeo.case.building.solver import build
-    from mpmgeo.mpm.persistence import state_of, take_over, take_snapshot
-
-    across = snapshot.facts.get("across")
-    if across is None or across == getattr(solver, "across", None):
-        take_snapshot(solver, snapshot)
-    else:
-        case = replace(load_case(snapshot.facts["case"]), plane_strain="auto")
-        of_layer, _ = build(case, body_force, starts=False)
-        take_snapshot(of_layer, snapshot)
-        of_layer.unfold()
-        take_over(solver, state_of(of_layer.acting))
-    if hasattr(solver, "fold"):
-        solver.fold()
-
-
-def record_of(simulation, changed) -> list:
-    """Return what snapshots record of values that changed when a run went on."""
+def record_of(simulation, changed, facts) -> list:
+    """Return what snapshots record of values that changed whenever a run went on."""
+    earlier = list(facts.get("changes", ()))
     if not changed:
-        return []
-    return [{"time": simulation.time, "steps": simulation.steps, "values": changed}]
+        return earlier
+    return [*earlier, {"time": simulation.time, "steps": simulation.steps, "values": changed}]
 
 
 def remarks_on(simulation, changed):

@@ -41,7 +41,7 @@ def test_saturated_column_bears_its_buoyant_weight(tmp_path, scheme):
         results={"probes": [{"type": "planes", "every": 1}]},
     )
     simulation = simulate(case).run()
-    assert simulation.messages == []
+    assert not [text for text in simulation.messages if not text.startswith("plane strain")]
     z = initial_position(simulation)[:, 2]
     pressure = simulation.field("pore_pressure")
     assert pressure == pytest.approx(WATER * (HEIGHT - z), rel=1e-9)
@@ -68,6 +68,7 @@ def test_what_finds_no_partner_is_told_once(tmp_path):
         [cuboid([0, 0, 0], [0.5, 0.5, 0.5])],
         time=1.0,
         hydro_mechanical_coupling={"enabled": True, "pore_pressure_field": str(file)},
+        plane_strain="off",
     )
     simulation = simulate(case).step(2)
     assert simulation.field("pressure").tolist() == [5.0] + [0.0] * 7

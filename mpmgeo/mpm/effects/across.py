@@ -6,7 +6,7 @@ from mpmgeo.effect import Effect
 class Across(Effect):
     """The forces of the two planes between which the material stands, beside those in the plane.
 
-    They are the stress across, over the area: F = ∓ Σ σ V/thickness.
+    They are the total stress across, over the area: F = ∓ Σ σ V/thickness.
     """
 
     name = "across"
@@ -21,11 +21,17 @@ class Across(Effect):
         if solver.reactions is None or solver.reactions is self._last:
             return
         self._last = solver.reactions
-        sums = (s.stress[: s.active, self.axis] @ s.V[: s.active] for s in solver.sets)
-        force = sum(sums) / self.thickness
+        force = sum(_total_stress(s, self.axis) for s in solver.sets) / self.thickness
         solver.reactions[self.axis, self.axis] = -force
         solver.reactions[3 + self.axis, self.axis] = force
 
     def resumed(self, solver):
         """Know the forces that were measured before."""
         self._last = solver.reactions
+
+
+def _total_stress(s, axis):
+    """Return the total normal stress along an axis, summed over the volume of a set [N m]."""
+    at = slice(0, s.active)
+    total = s.stress[at, axis] if s.pressure is None else s.stress[at, axis] - s.pressure[at]
+    return float(total @ s.V[at])
