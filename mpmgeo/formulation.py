@@ -50,6 +50,7 @@ class Formulation(Protocol):
     time_step: float
     gravity: tuple[float, float, float]
     count: int  # of all particles, those that left included
+    active: int  # of the particles that have not left
     sets: list  # of `state.particles.ParticleSet`, one or more for each material
     population: Any  # `state.particles.Population`, what is fixed about all particles
     grid: Any  # `state.grid.Grid`, None for a formulation without one, which writes no grid files

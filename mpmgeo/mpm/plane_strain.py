@@ -56,6 +56,11 @@ class PlaneStrain:
         return self.whole.count
 
     @property
+    def active(self):
+        """Number of particles that have not left the mesh."""
+        return self.acting.active * (self.columns.layers if self.is_plane else 1)
+
+    @property
     def shape(self):
         """The shape functions of the whole."""
         return self.whole.shape

@@ -92,6 +92,11 @@ class Solver(Stages):
             walls = cutting(walls)
         self.grid.end_at(walls)
 
+    @property
+    def active(self) -> int:
+        """Number of particles that have not left the mesh."""
+        return sum(s.active for s in self.sets)
+
     def effect(self, name):
         """Return the effect of a name, None without."""
         return next((effect for effect in self.effects if effect.name == name), None)

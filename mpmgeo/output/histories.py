@@ -13,8 +13,9 @@ ROWS = 1000
 class History:
     """A csv file of the time [s] and the numbers of a sampler, begun anew by `begin`.
 
-    The sampler has `columns` and `row()`, the numbers now or None. Rows are kept in memory until
-    `flush`. Raises OSError if the file cannot be written.
+    The sampler has `columns` and `row()`, the numbers now or None; one for which particles must be
+    in order says `looks_by_place = True`. Rows are kept in memory until `flush`. Raises OSError if
+    the file cannot be written.
     """
 
     def __init__(self, path, every, sampler):
@@ -104,7 +105,7 @@ class Histories:
 
     def _add(self, simulation):
         due = [h for h in self.histories if simulation.steps % h.every == 0]
-        if due:
+        if any(getattr(history.sampler, "looks_by_place", False) for history in due):
             simulation.arrange()
         for history in due:
             history.add(simulation.label)

@@ -76,7 +76,7 @@ class Progress(Watcher):
         """Show the state if it is time to."""
         if len(simulation.messages) > self._messages:
             self._news(simulation)
-        self._work += sum(s.active for s in simulation.solver.sets)
+        self._work += simulation.solver.active
         now = perf_counter()
         if self._first_step is None:
             self._first_step = self._shown = now

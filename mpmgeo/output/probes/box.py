@@ -38,6 +38,8 @@ class BoxProbe(FieldProbe, Placed):
 class Reduced:
     """The number of particles in a box and the mean or sum of their fields."""
 
+    looks_by_place = True
+
     def __init__(self, solver, probe):
         self.solver, self.probe = solver, probe
         self._bounds = bounds(probe.point_p1, probe.point_p2, probe.zero)

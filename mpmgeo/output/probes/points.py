@@ -44,6 +44,8 @@ class PointProbe(FieldProbe):
 class Interpolated:
     """Fields at points (k, 3) [m] that stay; NaN where no particle is within a cell's size."""
 
+    looks_by_place = True
+
     def __init__(self, solver, fields, points, names):
         self.solver, self.fields, self.points = solver, fields, points
         self.columns = [f"{n}.{c}" for n in names for c in components(solver, fields)]
