@@ -56,6 +56,15 @@ class PlaneStrain:
         return self.whole.count
 
     @property
+    def time_step(self):
+        """The time step [s]."""
+        return self.acting.time_step
+
+    @time_step.setter
+    def time_step(self, step):
+        self.acting.time_step = step
+
+    @property
     def active(self):
         """Number of particles that have not left the mesh."""
         return self.acting.active * (self.columns.layers if self.is_plane else 1)

@@ -134,6 +134,19 @@ def test_files_hold_all_layers(tmp_path):
         assert one == pytest.approx(other, abs=1e-9 * np.nanmax(np.abs(other)), nan_ok=True)
 
 
+def test_tools_feel_the_force_of_all_layers():
+    """A punch, of which only blocks in the middle of the mesh know, is pushed into the block."""
+    tool = {"name": "punch", "velocity": [None, None, -0.1], "every": 1,
+            "point_p1": [0.2, 0, 0.3], "point_p2": [0.3, 0.1, 0.5]}  # fmt: skip
+    energy = {"energy": {"every": 10}}
+    plane, whole = both(50, prescribed_velocity=[tool], results=energy)
+    force = whole.reactions()["punch"][2]
+    assert force != 0.0
+    assert plane.reactions()["punch"][2] == pytest.approx(force, rel=1e-9)
+    external = whole.energy()["external"]
+    assert plane.energy()["external"] == pytest.approx(external, rel=1e-9)
+
+
 def test_planes_across_carry_the_stress_across():
     case = block(thick=2, results={"probes": [{"type": "planes", "name": "p", "every": 1}]})
     plane = mpmgeo.Simulation(case).step(50)

@@ -80,7 +80,7 @@ def _held(model, a, node, axis, v):
 @is_needless.register(Works)
 def nothing_works(work, a, b, bounded):
     return _damps_nothing(work.work.damping) and not (
-        bounded or has_driven(work.work.driven, a[0][-1], b)
+        bounded or has_driven(work.work.driven, a[0][-1], b, len(a[1]))
     )
 
 

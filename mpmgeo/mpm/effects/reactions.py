@@ -19,7 +19,6 @@ from mpmgeo.numerics.dispatch import generic
 from mpmgeo.numerics.jit import inlined
 from mpmgeo.numerics.simd import LANES, lane, load
 from mpmgeo.state.checked import array_from
-from mpmgeo.state.layout import NODES
 
 
 @inlined
@@ -94,15 +93,16 @@ def at_forces_node(work, node, a):
 
 @is_needless.register(Forces)
 def nothing_holds(work, a, b, bounded):
-    return not bounded and not has_driven(work.work.driven, a[0][-1], b)
+    return not bounded and not has_driven(work.work.driven, a[0][-1], b, len(a[1]))
 
 
 @inlined
-def has_driven(model, driven, b):
-    """Tell whether nodes of block b have a prescribed velocity."""
+def has_driven(model, driven, b, blocks):
+    """Tell whether nodes of block b, of so many blocks, have a prescribed velocity."""
     if model is None:
         return False
-    return driven[0][b * NODES : (b + 1) * NODES].max() >= 0
+    count = len(driven[0]) // blocks
+    return driven[0][b * count : (b + 1) * count].max() >= 0
 
 
 class Reactions(Effect):
