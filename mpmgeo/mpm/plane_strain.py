@@ -62,6 +62,7 @@ class PlaneStrain:
 
     @time_step.setter
     def time_step(self, step):
+        """Let the next steps be of another length [s]."""
         self.acting.time_step = step
 
     @property

@@ -25,9 +25,8 @@ class Simulation:
 
     def __init__(self):
         self.case = SimpleNamespace(time=10.0, title="")
-        sets = [SimpleNamespace(active=1_000_000)]
         self.solver = SimpleNamespace(
-            count=1_000_000, sets=sets, clock=Clock(), effect=lambda name: None
+            count=1_000_000, active=1_000_000, clock=Clock(), effect=lambda name: None
         )
         self.steps, self.messages, self.threads = 0, [], 1
 
